@@ -1,0 +1,158 @@
+#include "engine/core/file.h"
+#include "engine/core/log.h"
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { PATH_CAPACITY = 4096 };
+static const size_t file_size_max = (size_t)4 << 30;
+
+static nook_result check_readable(const char *path, const struct stat *info)
+{
+    if (S_ISDIR(info->st_mode))
+        return nook_fail(NOOK_E_IO, "%s: is a directory; name a file", path);
+    if (!S_ISREG(info->st_mode))
+        return nook_fail(NOOK_E_IO, "%s: not a regular file", path);
+    if ((size_t)info->st_size > file_size_max)
+        return nook_fail(NOOK_E_MEMORY, "%s: %lld bytes; files over 4 GiB are not read", path,
+                         (long long)info->st_size);
+    return NOOK_OK;
+}
+
+static nook_result read_open_file(const char *path, int descriptor, nook_file *out_file)
+{
+    struct stat info;
+    if (fstat(descriptor, &info) != 0)
+        return nook_fail(NOOK_E_IO, "%s: %s", path, strerror(errno));
+    nook_result result = check_readable(path, &info);
+    if (result != NOOK_OK)
+        return result;
+    size_t size = (size_t)info.st_size;
+    uint8_t *bytes = malloc(size + 1);
+    if (!bytes)
+        return nook_fail(NOOK_E_MEMORY, "%s: no memory for %zu bytes", path, size);
+    size_t done = 0;
+    while (done < size) {
+        ssize_t got = read(descriptor, bytes + done, size - done);
+        if (got < 0 && errno == EINTR)
+            continue;
+        if (got <= 0) {
+            free(bytes);
+            return nook_fail(NOOK_E_IO, "%s: %s", path, got < 0 ? strerror(errno) : "became shorter while it was read");
+        }
+        done += (size_t)got;
+    }
+    bytes[size] = 0;
+    *out_file = (nook_file){ bytes, size };
+    return NOOK_OK;
+}
+
+nook_result nook_file_read(const char *path, nook_file *out_file)
+{
+    /* O_NONBLOCK: opening a pipe that nobody writes to must not hang. */
+    int descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    if (descriptor < 0 && (errno == ENOENT || errno == ENOTDIR))
+        return nook_fail(NOOK_E_NOT_FOUND, "%s: no such file", path);
+    if (descriptor < 0)
+        return nook_fail(NOOK_E_IO, "%s: %s", path, strerror(errno));
+    nook_result result = read_open_file(path, descriptor, out_file);
+    close(descriptor);
+    return result;
+}
+
+void nook_file_free(nook_file *file)
+{
+    if (!file)
+        return;
+    free(file->bytes);
+    *file = (nook_file){ 0 };
+}
+
+static bool write_all(int descriptor, const uint8_t *bytes, size_t size)
+{
+    while (size > 0) {
+        ssize_t put = write(descriptor, bytes, size);
+        if (put < 0 && errno == EINTR)
+            continue;
+        if (put <= 0)
+            return false;
+        bytes += put;
+        size -= (size_t)put;
+    }
+    return true;
+}
+
+nook_result nook_file_write(const char *path, const void *bytes, size_t size)
+{
+    char temporary[PATH_CAPACITY];
+    int length = snprintf(temporary, sizeof temporary, "%s.%ld.tmp", path, (long)getpid());
+    if (length < 0 || (size_t)length >= sizeof temporary)
+        return nook_fail(NOOK_E_IO, "%s: the path is too long", path);
+    int descriptor = open(temporary, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+    if (descriptor < 0)
+        return nook_fail(NOOK_E_IO, "%s: cannot write: %s", path, strerror(errno));
+    bool written = write_all(descriptor, bytes, size);
+    written = close(descriptor) == 0 && written;
+    if (!written || rename(temporary, path) != 0) {
+        int reason = errno;
+        unlink(temporary);
+        return nook_fail(NOOK_E_IO, "%s: cannot write: %s", path, strerror(reason));
+    }
+    return NOOK_OK;
+}
+
+bool nook_file_exists(const char *path)
+{
+    struct stat info;
+    return stat(path, &info) == 0 && S_ISREG(info.st_mode);
+}
+
+bool nook_directory_exists(const char *path)
+{
+    struct stat info;
+    return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
+}
+
+nook_result nook_directory_make(const char *path)
+{
+    char partial[PATH_CAPACITY];
+    size_t length = strlen(path);
+    if (length == 0 || length >= sizeof partial)
+        return nook_fail(NOOK_E_IO, "'%s': not a usable directory name", path);
+    for (size_t i = 1; i <= length; i++) {
+        if (path[i] != '/' && path[i] != '\0')
+            continue;
+        memcpy(partial, path, i);
+        partial[i] = '\0';
+        if (mkdir(partial, 0755) != 0 && errno != EEXIST)
+            return nook_fail(NOOK_E_IO, "%s: cannot make the directory: %s", partial, strerror(errno));
+    }
+    if (!nook_directory_exists(path))
+        return nook_fail(NOOK_E_IO, "%s: is a file; name a directory", path);
+    return NOOK_OK;
+}
+
+char *nook_path_join(char *out, size_t capacity, const char *folder, const char *name)
+{
+    size_t length = strlen(folder);
+    const char *separator = length == 0 || folder[length - 1] == '/' ? "" : "/";
+    snprintf(out, capacity, "%s%s%s", folder, separator, name);
+    return out;
+}
+
+const char *nook_path_name(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+const char *nook_path_extension(const char *path)
+{
+    const char *name = nook_path_name(path);
+    const char *dot = strrchr(name, '.');
+    return dot && dot != name ? dot : name + strlen(name);
+}

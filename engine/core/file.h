@@ -1,0 +1,37 @@
+#pragma once
+#include "engine/core/result.h"
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/** A whole file in memory. `bytes` is followed by one zero byte that `size` does not count. */
+typedef struct nook_file {
+    uint8_t *bytes; /**< Owned; release with nook_file_free. */
+    size_t size;    /**< Bytes. */
+} nook_file;
+
+/**
+ * Reads a regular file whole.
+ * @return NOOK_E_NOT_FOUND no such path; NOOK_E_IO a directory, device or unreadable; NOOK_E_MEMORY larger than 4 GiB or
+ *         than memory. *out_file is untouched on failure.
+ */
+nook_result nook_file_read(const char *path, nook_file *out_file);
+void nook_file_free(nook_file *file); /**< NULL and zeroed files are allowed. */
+
+/**
+ * Writes a whole file: to a temporary name beside it, then renamed over `path`. Nothing is left half written.
+ * @return NOOK_E_IO; then `path` is as it was before.
+ */
+nook_result nook_file_write(const char *path, const void *bytes, size_t size);
+
+bool nook_file_exists(const char *path); /**< A regular file. */
+bool nook_directory_exists(const char *path);
+/** Makes a directory and its parents. @return NOOK_E_IO */
+nook_result nook_directory_make(const char *path);
+
+/** Joins with one '/'; cuts to capacity. @return out */
+char *nook_path_join(char *out, size_t capacity, const char *folder, const char *name);
+/** The part after the last '/'. Points into `path`. */
+const char *nook_path_name(const char *path);
+/** The extension with its dot, lower or upper case as written; "" when there is none. Points into `path`. */
+const char *nook_path_extension(const char *path);

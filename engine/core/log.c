@@ -1,0 +1,45 @@
+#include "engine/core/log.h"
+#include <stdio.h>
+
+enum { LINE_CAPACITY = 2048 };
+
+static void write_to_stderr(void *user, nook_log_level level, const char *file, int line, const char *text)
+{
+    (void)user, (void)file, (void)line;
+    fprintf(stderr, "nook: %s%s\n", level == NOOK_LOG_WARNING ? "warning: " : "", text);
+}
+
+static struct {
+    nook_log_sink sink;
+    void *user;
+} log_state = { write_to_stderr, NULL };
+
+void nook_log_set_sink(nook_log_sink sink, void *user)
+{
+    log_state.sink = sink ? sink : write_to_stderr;
+    log_state.user = sink ? user : NULL;
+}
+
+static void say(const char *file, int line, nook_log_level level, const char *format, va_list arguments)
+{
+    char text[LINE_CAPACITY];
+    vsnprintf(text, sizeof text, format, arguments);
+    log_state.sink(log_state.user, level, file, line, text);
+}
+
+void nook_log_at(const char *file, int line, nook_log_level level, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    say(file, line, level, format, arguments);
+    va_end(arguments);
+}
+
+nook_result nook_fail_at(const char *file, int line, nook_result code, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    say(file, line, NOOK_LOG_ERROR, format, arguments);
+    va_end(arguments);
+    return code;
+}

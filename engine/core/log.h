@@ -1,0 +1,33 @@
+#pragma once
+#include "engine/core/result.h"
+#include <stdarg.h>
+
+typedef enum nook_log_level {
+    NOOK_LOG_INFO,    /**< Progress and results. */
+    NOOK_LOG_WARNING, /**< Went on with what it had; the line says what was left out. */
+    NOOK_LOG_ERROR,   /**< A call failed; the line says what is wrong and what to do. */
+} nook_log_level;
+
+/** Receives every line, without its newline. `file` and `line` are where in our sources it was said. */
+typedef void (*nook_log_sink)(void *user, nook_log_level level, const char *file, int line, const char *text);
+
+/**
+ * Sends all further lines to `sink`; NULL restores the default, which writes "nook: text" to standard error.
+ * The one process-wide setting of engine/core. Set it before threads start; sinks must be thread-safe.
+ */
+void nook_log_set_sink(nook_log_sink sink, void *user);
+
+#if defined(__GNUC__)
+#define NOOK_PRINTF(format_index, first) __attribute__((format(printf, format_index, first)))
+#else
+#define NOOK_PRINTF(format_index, first)
+#endif
+
+/** Logs printf-style text; lines over 2047 bytes are cut. */
+void nook_log_at(const char *file, int line, nook_log_level level, const char *format, ...) NOOK_PRINTF(4, 5);
+#define nook_log_info(...) nook_log_at(__FILE__, __LINE__, NOOK_LOG_INFO, __VA_ARGS__)
+#define nook_log_warning(...) nook_log_at(__FILE__, __LINE__, NOOK_LOG_WARNING, __VA_ARGS__)
+
+/** Logs an error and gives `code` back, so that one line reports and returns. */
+#define nook_fail(code, ...) nook_fail_at(__FILE__, __LINE__, (code), __VA_ARGS__)
+nook_result nook_fail_at(const char *file, int line, nook_result code, const char *format, ...) NOOK_PRINTF(4, 5);

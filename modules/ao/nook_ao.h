@@ -1,0 +1,131 @@
+/**
+ * nook_ao.h - ambient occlusion for a deferred renderer, in plain C. No ECS, no globals, no threads of its own
+ * (the ray-traced reference borrows threads while it records).
+ *
+ *   create -> add techniques, volumes -> every frame: submit occluders, record -> read the visibility texture -> destroy
+ *
+ * Space    metres, right-handed, Y up.
+ * Matrices 16 doubles, column-major, column vectors; the name says to_from. They are composed here in double precision
+ *          relative to the camera, so that a world far from its origin loses nothing (docs/architecture.md, Precision).
+ * Result   visibility in [0, 1]: 1 sees the whole sky, 0 sees none of it: 1 - A of docs/techniques.md, equation 1.
+ * Threads  one context is used by one thread at a time; two contexts are independent.
+ * Memory   inputs are copied before the call returns, unless the field says otherwise.
+ */
+#pragma once
+#include "engine/core/result.h"
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define NOOK_AO_VERSION 1
+
+typedef struct nook_ao nook_ao; /**< One per device and view. */
+typedef struct nook_ao_volume {
+    uint32_t id;
+} nook_ao_volume; /**< id 0 is none; a removed volume's id never comes back. */
+typedef struct nook_ao_mesh {
+    uint32_t id;
+} nook_ao_mesh; /**< Triangles for the reference; id 0 is none. */
+
+struct nook_gpu;          /* engine/gpu/gpu.h */
+struct nook_ao_technique; /* modules/ao/technique.h */
+struct nook_param;        /* engine/core/param.h */
+
+/** The host's own 2D texture by its GL name. 0 is none. */
+typedef struct nook_ao_texture {
+    uint32_t native;
+    uint32_t width, height; /**< Pixels. */
+} nook_ao_texture;
+
+typedef struct nook_ao_desc {
+    uint32_t version;       /**< NOOK_AO_VERSION. */
+    struct nook_gpu *gpu;   /**< Outlives us. A host with its own loader makes one with nook_gpu_create. */
+    uint32_t width, height; /**< Full-resolution target, pixels. */
+    uint32_t max_occluders; /**< Per frame; 0 means 4096. */
+} nook_ao_desc;
+
+/** One instance of a volume in this frame. */
+typedef struct nook_ao_occluder {
+    nook_ao_volume volume;      /**< What the volume techniques march; id 0: they do not see this occluder. */
+    nook_ao_mesh mesh;          /**< What the reference traces; id 0: it does not see this occluder. */
+    double world_from_mesh[16]; /**< Any affine matrix; a singular one leaves the occluder out. */
+} nook_ao_occluder;
+
+typedef struct nook_ao_frame {
+    double view_from_world[16]; /**< Rigid. */
+    double clip_from_view[16];  /**< Perspective, depth in [0, 1]; normal or reversed-Z is told from it. */
+    nook_ao_texture depth;      /**< Required. Device depth at full size, row 0 at the bottom. */
+    nook_ao_texture normal; /**< World space, octahedral RG (shaders/nook/octahedral.glsl). None: rebuilt from depth.
+                                 Give the geometric normal: rays below the true surface are nobody's occlusion. */
+    uint32_t index;         /**< Seeds the noise. Same index, same pixels. */
+} nook_ao_frame;
+
+/** @return NOOK_E_ARG, NOOK_E_VERSION, NOOK_E_MEMORY or NOOK_E_DEVICE; *out_ao is NULL on failure. */
+nook_result nook_ao_create(const nook_ao_desc *desc, nook_ao **out_ao);
+void nook_ao_destroy(nook_ao *ao); /**< NULL is allowed. */
+nook_result nook_ao_set_size(nook_ao *ao, uint32_t width, uint32_t height);
+
+/** Makes a technique available by its name; link only those you use. @return NOOK_E_VERSION, NOOK_E_MEMORY, NOOK_E_DEVICE */
+nook_result nook_ao_add_technique(nook_ao *ao, const struct nook_ao_technique *technique);
+
+/**
+ * Uploads one .nkv file image (docs/volume_format.md).
+ * @param name  used in messages
+ * @return NOOK_E_FORMAT not a whole volume file; NOOK_E_VERSION bake again; NOOK_E_MEMORY
+ */
+nook_result nook_ao_add_volume(nook_ao *ao, const char *name, const void *bytes, size_t size,
+                               nook_ao_volume *out_volume);
+void nook_ao_remove_volume(nook_ao *ao, nook_ao_volume volume);
+
+/**
+ * Keeps a copy of a triangle mesh for the reference.
+ * @param positions  xyz of vertex_count vertices, metres, mesh space, finite
+ * @param indices    index_count of them, a multiple of 3, each below vertex_count
+ */
+nook_result nook_ao_add_mesh(nook_ao *ao, const float *positions, uint32_t vertex_count, const uint32_t *indices,
+                             uint32_t index_count, nook_ao_mesh *out_mesh);
+void nook_ao_remove_mesh(nook_ao *ao, nook_ao_mesh mesh);
+
+/** Chooses who records. Its parameters keep their values. @return NOOK_E_NOT_FOUND (the line lists the names) */
+nook_result nook_ao_set_technique(nook_ao *ao, const char *name);
+
+/**
+ * Sets "technique.parameter" or, for what all techniques share, "ao.parameter": r_max, falloff, scale, filter, ...
+ * (modules/ao/params.def and modules/ao_<technique>/params.def).
+ * @return NOOK_E_NOT_FOUND; NOOK_E_RANGE, and then the old value stays.
+ */
+nook_result nook_ao_set_param(nook_ao *ao, const char *name, double value);
+/** The same from text: a number, or a choice by name. @return also NOOK_E_ARG */
+nook_result nook_ao_parse_param(nook_ao *ao, const char *name, const char *text);
+/** @return NOOK_E_NOT_FOUND */
+nook_result nook_ao_get_param(const nook_ao *ao, const char *name, double *out_value);
+
+/** For menus and reports. @return the index-th technique's descriptor, or NULL past the end */
+const struct nook_ao_technique *nook_ao_technique_at(const nook_ao *ao, uint32_t index);
+/** The table of "ao.*" parameters. */
+const struct nook_param *nook_ao_shared_params(size_t *out_count);
+
+/** Replaces the list used by the next record. Call it every frame; count may be 0. @return NOOK_E_ARG too many or stale id */
+nook_result nook_ao_submit_occluders(nook_ao *ao, const nook_ao_occluder *occluders, uint32_t count);
+
+/** Records prepare, trace, filter and upscale. @return NOOK_E_ARG, NOOK_E_DEVICE */
+nook_result nook_ao_record(nook_ao *ao, const nook_ao_frame *frame);
+
+/** Full-resolution R32F visibility of the last record; 1 where there is no geometry. Valid until set_size or destroy. */
+nook_ao_texture nook_ao_visibility(const nook_ao *ao);
+
+/** What the last record counted. */
+typedef struct nook_ao_statistics {
+    double
+        fetches_per_pixel; /**< Texture fetches of the trace per full-size pixel with geometry; needs ao.count = 1, else 0. */
+    uint32_t occluders;    /**< Marched this frame. */
+    uint64_t volume_bytes; /**< On the GPU. */
+} nook_ao_statistics;
+void nook_ao_get_statistics(nook_ao *ao, nook_ao_statistics *out_statistics); /**< Waits for the GPU. */
+
+#ifdef __cplusplus
+}
+#endif

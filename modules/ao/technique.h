@@ -1,0 +1,83 @@
+/**
+ * technique.h - what an ambient-occlusion technique is: constant data and code, no state of its own.
+ *
+ * The host (modules/ao/ao.c) prepares the inputs at the AO resolution, owns state and parameters, filters and upscales the
+ * result. A technique turns view-space depth and normals into visibility; see docs/adding_a_technique.md.
+ */
+#pragma once
+#include "engine/core/matrix.h"
+#include "engine/core/param.h"
+#include "engine/gpu/gpu.h"
+#include "modules/ao/nook_ao.h"
+
+#define NOOK_AO_TECHNIQUE_VERSION 1
+
+/** Triangles for the reference, in mesh space. */
+typedef struct nook_ao_mesh_view {
+    const float *positions;  /**< xyz * vertex_count, metres. */
+    const uint32_t *indices; /**< index_count, a multiple of 3. */
+    uint32_t vertex_count, index_count;
+    uint32_t id; /**< Never reused: a cache key. */
+} nook_ao_mesh_view;
+
+/** One traced instance of this frame: view space, metres, composed in double. */
+typedef struct nook_ao_mesh_instance {
+    uint32_t mesh; /**< Into pass->meshes. */
+    nook_matrix view_from_mesh;
+} nook_ao_mesh_instance;
+
+/**
+ * One frame's work at the AO resolution. Everything is in view space: metres, right-handed, the camera at the origin
+ * looking along -Z. Row 0 is the bottom row.
+ */
+typedef struct nook_ao_pass {
+    nook_gpu *gpu;
+    nook_texture depth; /**< R32F, distance along -Z in metres, > 0; 0 where there is no geometry. */
+    nook_texture
+        normal; /**< RG16 octahedral (shaders/nook/octahedral.glsl), unit, view space; any value without geometry. */
+    nook_texture visibility; /**< Output, R32F, [0, 1], 1 = open. Write every pixel; 1 where there is no geometry. */
+    nook_buffer
+        frame; /**< Uniform block of shaders/ao/frame.glsl: sizes, rays of view, r_max, falloff, seed. Binding 0. */
+    nook_buffer params; /**< Uniform block of this technique's params.def. Binding 1. */
+    nook_buffer
+        counter; /**< Storage, two uint32: texture fetches (64 bits, low first). Binding 7; add to it if `counting`. */
+    int counting;
+    uint32_t width, height; /**< Of depth, normal and visibility, pixels. */
+
+    /** The same numbers as in the frame block, for techniques that run on the CPU. */
+    double r_max;
+    int falloff;            /**< Index into the choices of ao.falloff: shaders/ao/falloff.glsl has the formulas. */
+    double tan_half_fov[2]; /**< x, y: view position of a pixel at depth d is ((2u - 1) tan_x, (2v - 1) tan_y, -1) d. */
+    uint32_t seed;
+
+    /** NOOK_AO_IN_VOLUMES: bound by the host for modules/ao/volumes.h; see shaders/ao/occluders.glsl. */
+    nook_texture volume_atlas; /**< R8 3D. Binding 2. */
+    nook_buffer occluders;     /**< Storage, array of Occluder. Binding 3. */
+    uint32_t occluder_count;
+
+    /** NOOK_AO_IN_MESHES. */
+    const nook_ao_mesh_view *meshes;
+    uint32_t mesh_count;
+    const nook_ao_mesh_instance *instances;
+    uint32_t instance_count;
+} nook_ao_pass;
+
+enum { NOOK_AO_IN_VOLUMES = 1, NOOK_AO_IN_MESHES = 2 };
+
+/** The one thing a technique module exports. */
+typedef struct nook_ao_technique {
+    uint32_t version;    /**< NOOK_AO_TECHNIQUE_VERSION, else the module is refused with NOOK_E_VERSION. */
+    const char *name;    /**< [a-z0-9_]+; the folder is modules/ao_<name>. */
+    const char *summary; /**< One line for the menu. */
+    uint32_t inputs;     /**< NOOK_AO_IN_*, beyond depth and normal, which all have. */
+    uint32_t exact;      /**< 1: truth; always at full resolution, never filtered. */
+    const nook_param *params;
+    uint32_t param_count;
+    uint32_t params_size;   /**< Bytes of the struct made from params.def. */
+    uint32_t state_size;    /**< Bytes; the host owns them, zeroes them and keeps them across reloads. */
+    uint32_t state_version; /**< Raise it with the state struct: the host destroys (old code), creates (new). */
+    nook_result (*create)(void *state, nook_gpu *gpu); /**< May be NULL. On failure nothing is left to destroy. */
+    void (*destroy)(void *state, nook_gpu *gpu);       /**< May be NULL. */
+    /** @param params  the struct made from params.def; the same bytes are in pass->params */
+    nook_result (*record)(void *state, const void *params, const nook_ao_pass *pass);
+} nook_ao_technique;

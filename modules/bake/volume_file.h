@@ -1,0 +1,53 @@
+/**
+ * volume_file.h - the .nkv file: one occluder's voxels. Format: docs/volume_format.md.
+ */
+#pragma once
+#include "engine/core/result.h"
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define NOOK_VOLUME_VERSION 1u
+#define NOOK_VOLUME_SIDE_MAX 512u
+
+typedef enum nook_volume_kind {
+    NOOK_VOLUME_BINARY = 0, /**< A voxel is 255 when a triangle touches it along one of the three axes, else 0. */
+} nook_volume_kind;
+
+/** What a volume is, without its voxels. */
+typedef struct nook_volume_info {
+    nook_volume_kind kind;
+    uint32_t width, height, depth; /**< Voxels, each in [1, NOOK_VOLUME_SIDE_MAX], the empty border included. */
+    double voxel_size;             /**< Metres in mesh space, > 0; the same on all axes. */
+    double origin[3];              /**< Metres, mesh space: outer corner of voxel (0, 0, 0). */
+    uint64_t content_hash;         /**< Of the triangles and the bake settings; tells a stale bake. */
+    uint64_t occupied;             /**< Voxels that are not 0. */
+} nook_volume_info;
+
+/** A volume in memory. */
+typedef struct nook_volume {
+    nook_volume_info info;
+    uint8_t *voxels; /**< width * height * depth bytes, x fastest, then y, then z. Owned. */
+} nook_volume;
+
+void nook_volume_free(nook_volume *volume); /**< NULL and zeroed volumes are allowed. */
+
+/**
+ * Reads and checks a .nkv file image: magic, version, sizes, checksum, decompressed size.
+ * @param name  used in messages only
+ * @return NOOK_E_FORMAT not a volume, cut short or damaged; NOOK_E_VERSION bake it again; NOOK_E_MEMORY.
+ *         *out_volume is untouched on failure
+ */
+nook_result nook_volume_decode(const char *name, const void *bytes, size_t size, nook_volume *out_volume);
+/** Only the header, checked against the file's size. */
+nook_result nook_volume_decode_info(const char *name, const void *bytes, size_t size, nook_volume_info *out_info);
+
+/** A .nkv file image. @param out_bytes  owned by the caller, release with free() @return NOOK_E_MEMORY, NOOK_E_ARG */
+nook_result nook_volume_encode(const nook_volume *volume, void **out_bytes, size_t *out_size);
+
+#ifdef __cplusplus
+}
+#endif
