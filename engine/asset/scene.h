@@ -64,7 +64,7 @@ typedef struct nook_node {
     uint32_t camera, light;
     uint32_t skin;                /**< NOOK_NONE; a skinned mesh is drawn unposed for now. */
     nook_matrix world_from_local; /**< Composed in double. */
-    bool moving;                  /**< A rigid body of its own: see nook_scene_mark_bodies. */
+    bool moving;                  /**< A rigid body: extras {"nook_body": true} on it or above it, or its mesh is drawn by several nodes. */
 } nook_node;
 
 typedef struct nook_scene_camera {
