@@ -1,0 +1,72 @@
+#include "modules/measure/colour_map.h"
+#include <math.h>
+#include <stddef.h>
+
+static uint8_t encode_srgb(float linear)
+{
+    float x = fminf(fmaxf(linear, 0.0f), 1.0f);
+    float encoded = x <= 0.0031308f ? 12.92f * x : 1.055f * powf(x, 1.0f / 2.4f) - 0.055f;
+    return (uint8_t)lrintf(encoded * 255.0f);
+}
+
+/* Ottosson, "A perceptual color space for image processing", 2020. */
+static nook_rgb from_oklab(float lightness, float a, float b)
+{
+    float l = lightness + 0.3963377774f * a + 0.2158037573f * b;
+    float m = lightness - 0.1055613458f * a - 0.0638541728f * b;
+    float s = lightness - 0.0894841775f * a - 1.2914855480f * b;
+    l = l * l * l;
+    m = m * m * m;
+    s = s * s * s;
+    return (nook_rgb){ encode_srgb(4.0767416621f * l - 3.3077115913f * m + 0.2309699292f * s),
+                       encode_srgb(-1.2684380046f * l + 2.6097574011f * m - 0.3413193965f * s),
+                       encode_srgb(-0.0041960863f * l - 0.7034186147f * m + 1.7076147010f * s) };
+}
+
+nook_rgb nook_error_colour(float error, float range)
+{
+    /* Lightness falls linearly; chroma rises fast at first, so that small errors already show their sign. All of it stays
+       within sRGB. */
+    static const float lightness_zero = 0.97f, lightness_full = 0.40f, chroma_full = 0.155f;
+    static const float hue_red = 0.47f, hue_blue = 4.50f; /* radians in OKLab */
+    if (isnan(error))
+        return (nook_rgb){ 255, 0, 255 };
+    float t = fminf(fabsf(error) / range, 1.0f);
+    float chroma = chroma_full * (1.0f - (1.0f - t) * (1.0f - t));
+    float hue = error < 0.0f ? hue_red : hue_blue;
+    return from_oklab(lightness_zero + (lightness_full - lightness_zero) * t, chroma * cosf(hue), chroma * sinf(hue));
+}
+
+nook_rgb nook_error_no_geometry(void)
+{
+    return (nook_rgb){ 200, 200, 200 };
+}
+
+nook_result nook_error_picture(const float *visibility, const float *reference, const uint8_t *mask, uint32_t width,
+                               uint32_t height, float range, nook_picture *out_picture)
+{
+    nook_picture picture;
+    nook_result result = nook_picture_create(width, height, &picture);
+    if (result != NOOK_OK)
+        return result;
+    for (uint32_t y = 0; y < height; y++) {
+        size_t from = (size_t)(height - 1 - y) * width;
+        nook_rgb *to = picture.pixels + (size_t)y * width;
+        for (uint32_t x = 0; x < width; x++) {
+            size_t i = from + x;
+            to[x] =
+                mask && !mask[i] ? nook_error_no_geometry() : nook_error_colour(visibility[i] - reference[i], range);
+        }
+    }
+    *out_picture = picture;
+    return NOOK_OK;
+}
+
+void nook_error_scale_draw(nook_picture *picture, int x, int y, int width, int height, nook_rgb frame)
+{
+    nook_picture_fill(picture, x - 1, y - 1, width + 2, height + 2, frame);
+    for (int i = 0; i < width; i++) {
+        float error = 2.0f * ((float)i + 0.5f) / (float)width - 1.0f;
+        nook_picture_fill(picture, x + i, y, 1, height, nook_error_colour(error, 1.0f));
+    }
+}
