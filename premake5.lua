@@ -1,25 +1,15 @@
 -- The build description. Works with premake5 (premake5 gmake) and Debian's premake4 4.3 (premake4 --file=premake5.lua gmake).
--- One project per part of the tree; each test_*.c under tests/ is a program of its own. Run through ./nook, which
--- regenerates this when the list of files or flags changes.
+-- One project per part of the tree; each tests/**/test_*.c is a program of its own. Run it through ./nook, which regenerates
+-- when the list of files changes and starts clean when flags do: neither premake rebuilds objects for changed flags.
 
 if not workspace then -- premake4: give it the premake5 names used below
   workspace = solution
-  function filter(terms)
-    if type(terms) == "string" then terms = { terms } end
-    local out = {}
-    for _, term in ipairs(terms) do
-      local negated, rest = term:match("^(not%s+)(.*)$")
-      term = rest or term
-      local _, value = term:match("^(%a+):(.*)$")
-      table.insert(out, (negated or "") .. (value or term))
-    end
-    configuration(out)
-  end
+  removefiles = excludes
   function cdialect(v) buildoptions { "-std=" .. v:lower() } end
-  function cppdialect(v) buildoptions { "-std=" .. v:lower():gsub("c%+%+", "c++") } end
-  function symbols(v) if v == "On" then flags { "Symbols" } end end
-  function optimize(v) if v ~= "Off" then flags { "OptimizeSpeed" } end end
-  function pic() buildoptions { "-fPIC" } end
+  function cppdialect(v) buildoptions { "-std=" .. v:lower() } end
+  function symbols(v) flags { "Symbols" } end
+  function optimize(v) if v == "Speed" then flags { "OptimizeSpeed" } end end
+  function pic(v) buildoptions { "-fPIC" } end
 end
 
 newoption { trigger = "sanitize", description = "build with AddressSanitizer and UndefinedBehaviorSanitizer" }
@@ -34,14 +24,26 @@ workspace "nook"
   defines { "_DEFAULT_SOURCE", "CGLM_ALL_UNALIGNED" }
   pic "On"
   symbols "On"
-  optimize "Speed"
   -- Strict floating point: measured results must not depend on contraction into fused multiply-adds.
   buildoptions { "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-ffp-contract=off", "-fno-omit-frame-pointer", "-pthread" }
   linkoptions { "-pthread" }
   if _OPTIONS["sanitize"] then
-    buildoptions { "-fsanitize=address,undefined", "-fno-sanitize-recover=all" }
+    optimize "Off"
+    buildoptions { "-O1", "-fsanitize=address,undefined", "-fno-sanitize-recover=all" }
     linkoptions { "-fsanitize=address,undefined" }
+  else
+    optimize "Speed"
   end
+
+-- premake4 maps two sources of one name to one object and drops one silently.
+local function check_names(name, sources)
+  local seen = {}
+  for _, source in ipairs(sources) do
+    local base = path.getbasename(source)
+    if seen[base] then error(name .. ": " .. seen[base] .. " and " .. source .. " need different names", 0) end
+    seen[base] = source
+  end
+end
 
 local function c_project(name, project_kind)
   project(name)
@@ -52,58 +54,63 @@ local function c_project(name, project_kind)
   objdir(out .. "/obj/" .. name)
 end
 
-local function c_library(name, folders)
-  c_project(name, "StaticLib")
-  for _, folder in ipairs(folders) do files { folder .. "/**.c", folder .. "/**.h", folder .. "/**.inl", folder .. "/**.def" } end
-end
-
--- Parts, lowest first; a part links what stands below it (docs/architecture.md).
-c_library("nook_core", { "engine/core" })
-c_library("nook_platform", { "engine/platform" })
-c_library("nook_gpu", { "engine/gpu" })
-c_library("nook_ecs", { "engine/ecs" })
-c_library("nook_asset", { "engine/asset" })
-c_library("nook_bake", { "modules/bake" })
-c_library("nook_ao", { "modules/ao" })
-for _, folder in ipairs(os.matchdirs("modules/ao_*")) do
-  c_library("nook_" .. path.getname(folder), { folder })
-end
-c_library("nook_measure", { "modules/measure" })
-c_library("nook_render", { "engine/render" })
-
-project "nook_gltf" -- the C++ shim around tinygltf, behind a C header
-  kind "StaticLib"
+local function cpp_project(name, project_kind)
+  project(name)
+  kind(project_kind)
   language "C++"
   cppdialect "C++17"
-  objdir(out .. "/obj/nook_gltf")
-  files { "engine/asset/**.cpp" }
-
-local function nook_links()
-  links { "nook_render", "nook_measure" }
-  for _, folder in ipairs(os.matchdirs("modules/ao_*")) do links { "nook_" .. path.getname(folder) } end
-  links { "nook_ao", "nook_bake", "nook_asset", "nook_gltf", "nook_ecs", "nook_gpu", "nook_platform", "nook_core",
-          "tinygltf", "stb", "embree3", "glfw", "EGL", "teem", "zstd", "xxhash", "stdc++", "dl", "m" }
+  objdir(out .. "/obj/" .. name)
 end
 
-c_library("nook_game", { "game" })
-  removefiles = removefiles or excludes
-  removefiles { "game/main.c" }
+local libraries = {} -- names in link order: what uses stands before what is used
+
+-- A folder without sources (headers only, or not written yet) makes no library and is not linked.
+local function library(name, make_project, folder, pattern)
+  local sources = os.matchfiles(folder .. "/**" .. pattern)
+  if #sources == 0 then return end
+  check_names(name, sources)
+  make_project(name, "StaticLib")
+  files { folder .. "/**" .. pattern }
+  table.insert(libraries, 1, name)
+end
+
+-- Parts, lowest first; a part uses only what stands above it here (docs/architecture.md).
+library("nook_core", c_project, "engine/core", ".c")
+library("nook_platform", c_project, "engine/platform", ".c")
+library("nook_gpu", c_project, "engine/gpu", ".c")
+library("nook_ecs", c_project, "engine/ecs", ".c")
+library("nook_gltf", cpp_project, "engine/asset", ".cpp") -- the shim around tinygltf, behind a C header
+library("nook_asset", c_project, "engine/asset", ".c")
+library("nook_bake", c_project, "modules/bake", ".c")
+library("nook_ao", c_project, "modules/ao", ".c")
+local techniques = os.matchdirs("modules/ao_*")
+table.sort(techniques)
+for _, folder in ipairs(techniques) do library("nook_" .. path.getname(folder), c_project, folder, ".c") end
+library("nook_measure", c_project, "modules/measure", ".c")
+library("nook_render", c_project, "engine/render", ".c")
+library("nook_game", c_project, "game", ".c")
+removefiles { "game/main.c" } -- of nook_game, the last project made
+
+local function link_everything()
+  links(libraries)
+  links { "tinygltf", "stb", "embree3", "glfw", "EGL", "teem", "zstd", "xxhash", "stdc++", "dl", "m" }
+end
 
 c_project("nook", "ConsoleApp")
-  files { "game/main.c" }
-  links { "nook_game" }
-  nook_links()
+files { "game/main.c" }
+link_everything()
 
-c_library("nook_testing", { "tests/support" })
+library("nook_testing", c_project, "tests/support", ".c")
 
-for _, file in ipairs(os.matchfiles("tests/**.c")) do
-  local name = path.getbasename(file)
-  if name:match("^test_") then
-    c_project(name, "ConsoleApp")
+local tests = os.matchfiles("tests/**.c")
+table.sort(tests)
+for _, file in ipairs(tests) do
+  local folder, subject = file:match("^tests/(.*)test_([^/]*)%.c$")
+  if subject then -- tests/core/test_file.c is the program tests/test_core_file
+    c_project("test_" .. folder:gsub("/", "_") .. subject, "ConsoleApp")
     targetdir(out .. "/tests")
     files { file }
-    links { "nook_testing", "nook_game" }
-    nook_links()
+    link_everything()
     links { "cmocka" }
   end
 end
