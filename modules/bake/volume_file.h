@@ -14,7 +14,7 @@ extern "C" {
 #define NOOK_VOLUME_SIDE_MAX 512u
 
 typedef enum nook_volume_kind {
-    NOOK_VOLUME_BINARY = 0, /**< A voxel is 255 when a triangle touches it along one of the three axes, else 0. */
+    NOOK_VOLUME_BINARY = 0, /**< A voxel is 255 where a surface was voxelised (voxelize.h says which), else 0. */
 } nook_volume_kind;
 
 /** What a volume is, without its voxels. */
@@ -42,10 +42,10 @@ void nook_volume_free(nook_volume *volume); /**< NULL and zeroed volumes are all
  *         *out_volume is untouched on failure
  */
 nook_result nook_volume_decode(const char *name, const void *bytes, size_t size, nook_volume *out_volume);
-/** Only the header, checked against the file's size. */
+/** Only the header; checked against the file's size and checksum, but nothing is decompressed. */
 nook_result nook_volume_decode_info(const char *name, const void *bytes, size_t size, nook_volume_info *out_info);
 
-/** A .nkv file image. @param out_bytes  owned by the caller, release with free() @return NOOK_E_MEMORY, NOOK_E_ARG */
+/** Makes a .nkv file image; the same volume gives the same bytes. Outputs are untouched on failure. @param out_bytes  owned by the caller, release with free() @return NOOK_E_MEMORY, NOOK_E_ARG */
 nook_result nook_volume_encode(const nook_volume *volume, void **out_bytes, size_t *out_size);
 
 #ifdef __cplusplus

@@ -3,13 +3,31 @@
  *
  * A triangle is rasterised along each axis in turn (the voxel whose centre column it covers gets the voxel of its depth
  * there); the three results are ORed. Open, intersecting and double geometry needs no care.
+ *
+ * Where the grid lies   Its longest side is exactly `resolution` voxels of the box, the other sides are rounded up; the
+ *                       box stands in the middle, and one empty voxel surrounds it. So a flat mesh lies in the middle of
+ *                       its one layer, and the faces of a box are the outer faces of its voxels.
+ * What is exact         Corners are snapped to 1/65536 voxel; coverage is then decided in integers, edges included, so
+ *                       triangles that share an edge leave no gap. A line through voxel centres never crosses the surface
+ *                       unmarked: a closed mesh has no 6-connected path from inside to outside.
+ * What the paper misses A triangle narrower than four voxels may cover no centre at all. Such ones are walked along their
+ *                       longest edge, and a voxel found that neither has a mark nor touches one by a face is marked too.
+ *                       Wires and crumbs stay, while finely tessellated surfaces stay as thin as coarse ones.
  */
 #pragma once
 #include "modules/bake/volume_file.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Raise it when the voxels of the same triangles change: cached volumes of older versions are then baked again. */
+#define NOOK_VOXELIZE_VERSION 1u
+#define NOOK_VOXELIZE_RESOLUTION_MAX (NOOK_VOLUME_SIDE_MAX - 2u)
+
 typedef struct nook_triangles {
     const float *positions; /**< xyz, metres, mesh space. */
-    uint32_t stride;        /**< Bytes between vertices; 0 means 12. */
+    uint32_t stride;        /**< Bytes between vertices, at least 12; 0 means 12. */
     uint32_t vertex_count;
     const uint32_t *indices; /**< Each below vertex_count. */
     size_t index_count;      /**< A multiple of 3. */
@@ -22,7 +40,19 @@ typedef struct nook_voxelize_desc {
 
 /**
  * Makes the volume of a soup: its bounding box at `resolution`, plus one empty voxel on every side.
- * Degenerate triangles are voxelised as the segments or points they are; triangles with a non-finite corner are left out.
- * @return NOOK_E_RANGE resolution; NOOK_E_ARG nothing finite to voxelise; NOOK_E_MEMORY; *out_volume untouched on failure
+ * Degenerate triangles are voxelised as the segments or points they are; triangles with a non-finite corner are left out
+ * (one warning counts them). Soups smaller than a micrometre are voxelised as if they were that large.
+ * @return NOOK_E_RANGE resolution; NOOK_E_ARG nothing finite to voxelise, or indices or stride out of bounds;
+ *         NOOK_E_MEMORY; *out_volume is untouched on failure. Its content_hash is nook_voxelize_hash's.
  */
 nook_result nook_voxelize(const nook_triangles *triangles, const nook_voxelize_desc *desc, nook_volume *out_volume);
+
+/**
+ * Identifies a bake: a hash of positions, indices, resolution and the versions of voxeliser and file. Threads and stride
+ * do not enter. Takes what nook_voxelize takes.
+ */
+uint64_t nook_voxelize_hash(const nook_triangles *triangles, const nook_voxelize_desc *desc);
+
+#ifdef __cplusplus
+}
+#endif

@@ -1,0 +1,201 @@
+#include "modules/bake/rasterize.h"
+#include <math.h>
+
+/*
+ * Layers are told apart a little below the voxel boundary. Walls and floors often lie at round numbers, exactly on a
+ * boundary or within rounding of it; without this they would flicker between two layers. The half step keeps the limit off
+ * every snapped depth, so that rounding in the interpolation cannot matter for flat triangles.
+ */
+static const double layer_bias = 64.5;
+
+/* Narrower than this, a triangle's projection along its main axis may miss every centre: the projected inscribed circle
+   has at least 1 / (3 sqrt 3) of the altitude as its radius, and a circle of radius sqrt(1/2) always holds a centre. */
+static const double narrow_voxels = 4.0;
+
+static int32_t clamp_layer(int32_t layer, int32_t inner)
+{
+    return layer < 1 ? 1 : layer > inner ? inner : layer;
+}
+
+static int32_t layer_of(double depth, int32_t inner)
+{
+    return clamp_layer((int32_t)floor((depth + layer_bias) / NOOK_SUBVOXEL), inner);
+}
+
+static int32_t smallest(int32_t a, int32_t b, int32_t c)
+{
+    int32_t low = a < b ? a : b;
+    return low < c ? low : c;
+}
+
+static int32_t largest(int32_t a, int32_t b, int32_t c)
+{
+    int32_t high = a > b ? a : b;
+    return high > c ? high : c;
+}
+
+static int32_t first_centre(int32_t low) /* the first voxel whose centre is at `low` or above */
+{
+    return (low + NOOK_SUBVOXEL / 2 - 1) >> NOOK_SUBVOXEL_BITS;
+}
+
+static int32_t last_centre(int32_t high) /* the last voxel whose centre is at `high` or below */
+{
+    return (high - NOOK_SUBVOXEL / 2) >> NOOK_SUBVOXEL_BITS;
+}
+
+static int64_t centre(int32_t voxel)
+{
+    return (int64_t)voxel * NOOK_SUBVOXEL + NOOK_SUBVOXEL / 2;
+}
+
+/* A triangle seen along one axis, counter-clockwise. Corners: u, v across, depth along. */
+typedef struct projection {
+    int64_t u[3], v[3], depth[3];
+    int64_t area; /* twice, > 0 */
+} projection;
+
+/* Twice the signed area of (from, to, point). Coordinates are below 2^26, so this is exact, in double too. */
+static int64_t edge(const projection *p, int from, int to, int64_t u, int64_t v)
+{
+    return (p->u[to] - p->u[from]) * (v - p->v[from]) - (p->v[to] - p->v[from]) * (u - p->u[from]);
+}
+
+/* False when the triangle is seen edge-on: its neighbours, or the other axes, mark it then. */
+static int project(const nook_snapped_triangle *triangle, int axis, projection *out)
+{
+    int across = (axis + 1) % 3, up = (axis + 2) % 3;
+    for (int i = 0; i < 3; i++) {
+        out->u[i] = triangle->corner[i][across];
+        out->v[i] = triangle->corner[i][up];
+        out->depth[i] = triangle->corner[i][axis];
+    }
+    out->area = edge(out, 0, 1, out->u[2], out->v[2]);
+    if (out->area >= 0)
+        return out->area > 0;
+    projection mirrored = *out;
+    out->u[1] = mirrored.u[2], out->v[1] = mirrored.v[2], out->depth[1] = mirrored.depth[2];
+    out->u[2] = mirrored.u[1], out->v[2] = mirrored.v[1], out->depth[2] = mirrored.depth[1];
+    out->area = -mirrored.area;
+    return 1;
+}
+
+static int64_t divide_up(int64_t a, int64_t positive)
+{
+    return a >= 0 ? (a + positive - 1) / positive : -(-a / positive);
+}
+
+static int64_t divide_down(int64_t a, int64_t positive)
+{
+    return -divide_up(-a, positive);
+}
+
+/* Narrows [*first, *last] to the steps i with weight + i * step >= 0. */
+static void clip_span(int64_t weight, int64_t step, int64_t *first, int64_t *last)
+{
+    if (step > 0) {
+        int64_t from = divide_up(-weight, step);
+        *first = from > *first ? from : *first;
+    } else if (step < 0) {
+        int64_t to = divide_down(weight, -step);
+        *last = to < *last ? to : *last;
+    } else if (weight < 0) {
+        *last = *first - 1;
+    }
+}
+
+typedef struct raster {
+    const int32_t *inner;
+    nook_voxel_grid *grid;
+    int axis;
+} raster;
+
+static void rasterize_row(const projection *p, const raster *r, int32_t first_u, int32_t last_u, int32_t row)
+{
+    int64_t weight[3], step[3];
+    int64_t first = 0, last = last_u - first_u;
+    for (int i = 0; i < 3; i++) {
+        int from = (i + 1) % 3, to = (i + 2) % 3;
+        weight[i] = edge(p, from, to, centre(first_u), centre(row));
+        step[i] = (p->v[from] - p->v[to]) * NOOK_SUBVOXEL;
+        clip_span(weight[i], step[i], &first, &last);
+    }
+    int32_t voxel[3];
+    voxel[(r->axis + 2) % 3] = row;
+    for (int64_t i = first; i <= last; i++) {
+        double depth = 0.0;
+        for (int k = 0; k < 3; k++)
+            depth += (double)(weight[k] + i * step[k]) * (double)p->depth[k];
+        voxel[(r->axis + 1) % 3] = first_u + (int32_t)i;
+        voxel[r->axis] = layer_of(depth / (double)p->area, r->inner[r->axis]);
+        nook_voxel_grid_set(r->grid, voxel);
+    }
+}
+
+void nook_rasterize_three_way(const nook_snapped_triangle *triangle, const int32_t inner[3], nook_voxel_grid *grid)
+{
+    int32_t first[3], last[3];
+    for (int axis = 0; axis < 3; axis++) {
+        int32_t a = triangle->corner[0][axis], b = triangle->corner[1][axis], c = triangle->corner[2][axis];
+        first[axis] = first_centre(smallest(a, b, c));
+        last[axis] = last_centre(largest(a, b, c));
+    }
+    for (int axis = 0; axis < 3; axis++) {
+        int across = (axis + 1) % 3, up = (axis + 2) % 3;
+        projection p;
+        if (first[across] > last[across] || first[up] > last[up] || !project(triangle, axis, &p))
+            continue;
+        raster r = { inner, grid, axis };
+        for (int32_t row = first[up]; row <= last[up]; row++)
+            rasterize_row(&p, &r, first[across], last[across], row);
+    }
+}
+
+static double distance_squared(const int32_t a[3], const int32_t b[3])
+{
+    double x = (double)b[0] - a[0], y = (double)b[1] - a[1], z = (double)b[2] - a[2];
+    return x * x + y * y + z * z;
+}
+
+/* Height of the triangle over edge (from, to) of length `length`, both in steps. */
+static double altitude(const nook_snapped_triangle *triangle, int from, int to, double length)
+{
+    const int32_t *a = triangle->corner[from], *b = triangle->corner[to], *c = triangle->corner[3 - from - to];
+    double e[3], f[3];
+    for (int i = 0; i < 3; i++) {
+        e[i] = (double)b[i] - a[i];
+        f[i] = (double)c[i] - a[i];
+    }
+    double x = e[1] * f[2] - e[2] * f[1], y = e[2] * f[0] - e[0] * f[2], z = e[0] * f[1] - e[1] * f[0];
+    return length > 0.0 ? sqrt(x * x + y * y + z * z) / length : 0.0;
+}
+
+void nook_rasterize_narrow(const nook_snapped_triangle *triangle, const int32_t inner[3],
+                           const nook_voxel_grid *rasterized, nook_voxel_grid *out_extra)
+{
+    int from = 0;
+    double longest = -1.0;
+    for (int i = 0; i < 3; i++) {
+        double squared = distance_squared(triangle->corner[i], triangle->corner[(i + 1) % 3]);
+        if (squared > longest) {
+            longest = squared;
+            from = i;
+        }
+    }
+    int to = (from + 1) % 3;
+    double length = sqrt(longest);
+    if (altitude(triangle, from, to, length) >= narrow_voxels * NOOK_SUBVOXEL)
+        return;
+    /* Half a voxel a step: no voxel that the edge crosses for longer than that is passed over. */
+    int32_t steps = 1 + (int32_t)(length / (NOOK_SUBVOXEL / 2));
+    for (int32_t i = 0; i < steps; i++) {
+        double at = (i + 0.5) / steps;
+        int32_t voxel[3];
+        for (int axis = 0; axis < 3; axis++) {
+            double a = triangle->corner[from][axis], b = triangle->corner[to][axis];
+            voxel[axis] = layer_of(a + (b - a) * at, inner[axis]);
+        }
+        if (!nook_voxel_grid_has_near(rasterized, voxel))
+            nook_voxel_grid_set(out_extra, voxel);
+    }
+}
