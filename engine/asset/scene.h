@@ -11,6 +11,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 #define NOOK_NONE UINT32_MAX /**< No such image, material, mesh, ... */
 
 typedef struct nook_vertex {
@@ -128,3 +132,7 @@ void nook_scene_destroy(nook_scene *scene); /**< NULL is allowed. */
 /** A scene made by code, for tests and fixtures: one mesh, one node, one default material. Copies its inputs. */
 nook_result nook_scene_from_triangles(const char *name, const float *positions, uint32_t vertex_count,
                                       const uint32_t *indices, uint32_t index_count, nook_scene **out_scene);
+
+#ifdef __cplusplus
+}
+#endif

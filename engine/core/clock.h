@@ -1,4 +1,12 @@
 #pragma once
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /** Milliseconds of a monotonic clock with an arbitrary start; differences are wall time. */
 double nook_clock_ms(void);
+
+#ifdef __cplusplus
+}
+#endif

@@ -4,6 +4,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /** A whole file in memory. `bytes` is followed by one zero byte that `size` does not count. */
 typedef struct nook_file {
     uint8_t *bytes; /**< Owned; release with nook_file_free. */
@@ -35,3 +39,7 @@ char *nook_path_join(char *out, size_t capacity, const char *folder, const char 
 const char *nook_path_name(const char *path);
 /** The extension with its dot, lower or upper case as written; "" when there is none. Points into `path`. */
 const char *nook_path_extension(const char *path);
+
+#ifdef __cplusplus
+}
+#endif

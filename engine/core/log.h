@@ -2,6 +2,10 @@
 #include "engine/core/result.h"
 #include <stdarg.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 typedef enum nook_log_level {
     NOOK_LOG_INFO,    /**< Progress and results. */
     NOOK_LOG_WARNING, /**< Went on with what it had; the line says what was left out. */
@@ -31,3 +35,7 @@ void nook_log_at(const char *file, int line, nook_log_level level, const char *f
 /** Logs an error and gives `code` back, so that one line reports and returns. */
 #define nook_fail(code, ...) nook_fail_at(__FILE__, __LINE__, (code), __VA_ARGS__)
 nook_result nook_fail_at(const char *file, int line, nook_result code, const char *format, ...) NOOK_PRINTF(4, 5);
+
+#ifdef __cplusplus
+}
+#endif

@@ -1,5 +1,9 @@
 #pragma once
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /**
  * 4x4 matrices in double precision. Column-major, column vectors, like every matrix in Nook; the name says to_from.
  * Transforms are composed here and only the (small, relative) product goes to the GPU as float: see docs/architecture.md.
@@ -34,3 +38,7 @@ nook_matrix nook_matrix_look_at(const double eye[3], const double target[3], con
  * @param fov_y_radians  vertical field of view, (0, pi)
  */
 nook_matrix nook_matrix_perspective_reversed(double fov_y_radians, double aspect, double z_near);
+
+#ifdef __cplusplus
+}
+#endif

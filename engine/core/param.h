@@ -3,6 +3,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /** What a number is measured in; shown beside sliders and in --help. */
 typedef enum nook_unit {
     NOOK_UNIT_NONE,
@@ -46,3 +50,7 @@ double nook_param_get(const nook_param *param, const void *block);
 const char *nook_param_print(const nook_param *param, const void *block, char *out, size_t capacity);
 /** "metre", "pixel", "" ... */
 const char *nook_unit_name(nook_unit unit);
+
+#ifdef __cplusplus
+}
+#endif

@@ -11,6 +11,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /** A texture by its GL name. A value: copy it freely; the maker destroys it once. id 0 is none. */
 typedef struct nook_texture {
     uint32_t id;
@@ -104,3 +108,7 @@ static inline uint32_t nook_groups(uint32_t size, uint32_t local)
 void nook_gpu_finish(nook_gpu *gpu);
 /** True, once, when GL has raised an error since the last call; the log then names it and `where`. */
 bool nook_gpu_check(nook_gpu *gpu, const char *where);
+
+#ifdef __cplusplus
+}
+#endif

@@ -10,6 +10,10 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 typedef enum nook_backend {
     NOOK_BACKEND_AUTO, /**< Window when asked for one and a display answers; else EGL when it is a real GPU; else OSMesa. */
     NOOK_BACKEND_WINDOW,
@@ -111,3 +115,7 @@ void nook_context_present(nook_context *context);
 const char *nook_backend_name(nook_backend backend);
 /** @return false for an unknown name; *out_backend is untouched */
 bool nook_backend_parse(const char *name, nook_backend *out_backend);
+
+#ifdef __cplusplus
+}
+#endif
