@@ -106,7 +106,7 @@ local tests = os.matchfiles("tests/**.c")
 table.sort(tests)
 for _, file in ipairs(tests) do
   local folder, subject = file:match("^tests/(.*)test_([^/]*)%.c$")
-  if subject then -- tests/core/test_file.c is the program tests/test_core_file
+  if subject and folder ~= "support/" then -- tests/core/test_file.c is the program tests/test_core_file
     c_project("test_" .. folder:gsub("/", "_") .. subject, "ConsoleApp")
     targetdir(out .. "/tests")
     files { file }

@@ -3,6 +3,18 @@
  *
  * Functions of GL live in a table (gpu->gl) that belongs to the device: no globals, so that several contexts and
  * reloaded modules can live in one process. Helpers here cover what every pass does; rare calls go to the table.
+ * A device is used on the thread on which its context is current.
+ *
+ * What software GL (llvmpipe, Mesa 22.3) asks of those who write passes:
+ * - local_size_x is a multiple of 8, its lanes: 2 or 4 cost 1.4 to 1.7 times, and once 19 to 44 times, the time.
+ * - A dispatch runs to its end inside nook_dispatch; draws only start. Time both around nook_gpu_finish.
+ * - Each thread gets one contiguous share of a dispatch's groups: background in one half idles a core.
+ * - Timer queries lie: 0 ms for a dispatch of 100 ms. See nook_gpu_timer_trusted.
+ * - Loads from storage buffers cost twice a texelFetch from a texture buffer; trilinear taps three times a nearest one.
+ * - Linear filtering of 8 bit formats gives whole steps of 1/255: use R16F or R32F where that is too coarse.
+ * - The first use of a program compiles it once more (10 to 200 ms): warm up before timing.
+ * - Do not redeclare gl_PerVertex in a vertex shader: it then fails to link.
+ * - Values too large for an unsigned integer target are clamped, not cut: mask them in the shader.
  */
 #pragma once
 #include "engine/core/result.h"
@@ -33,8 +45,19 @@ typedef struct nook_program {
     uint32_t id;
 } nook_program;
 
+/** Where draws go. Borrows its textures: destroy it before them. id 0 is the window's own. */
+typedef struct nook_framebuffer {
+    uint32_t id;
+    uint32_t width, height; /**< Pixels. */
+} nook_framebuffer;
+
+/** A pair of time stamps. id 0 is none. */
+typedef struct nook_gpu_timer {
+    uint32_t begin, end; /**< Query names. */
+} nook_gpu_timer;
+
 typedef struct nook_gpu nook_gpu;
-struct nook_gpu_cache; /* programs by path and defines */
+struct nook_gpu_cache; /* engine/gpu/gpu_internal.h: the table of functions, and programs by path and defines */
 
 struct nook_gpu {
     const nook_gl *gl;
@@ -51,9 +74,13 @@ typedef struct nook_gpu_desc {
         *source_root; /**< Folder that holds shaders/ and modules/; every shader path is relative to it. Copied. */
 } nook_gpu_desc;
 
-/** Loads GL and checks the version. @return NOOK_E_DEVICE; *out_gpu is NULL then */
+/**
+ * Loads GL and checks the version. From then on what the driver calls an error or of high severity reaches the log.
+ * @return NOOK_E_DEVICE or NOOK_E_MEMORY; *out_gpu is NULL then
+ */
 nook_result nook_gpu_create(const nook_gpu_desc *desc, nook_gpu **out_gpu);
-void nook_gpu_destroy(nook_gpu *gpu); /**< Deletes its programs too. NULL is allowed. */
+/** Deletes its programs too; its context must be current. NULL is allowed. */
+void nook_gpu_destroy(nook_gpu *gpu);
 
 /**
  * Immutable 2D texture, one level; contents undefined. @param filter GL_NEAREST or GL_LINEAR (clamped to the edge)
@@ -63,26 +90,43 @@ nook_result nook_texture_create_2d(nook_gpu *gpu, uint32_t format, uint32_t widt
                                    nook_texture *out_texture);
 nook_result nook_texture_create_3d(nook_gpu *gpu, uint32_t format, uint32_t width, uint32_t height, uint32_t depth,
                                    uint32_t filter, nook_texture *out_texture);
-/** With a full mip chain, made from `pixels`, repeated at the edges, trilinear and anisotropic: for materials. */
+/**
+ * With a full mip chain, made from `rgba8`, repeated at the edges, trilinear and anisotropic: for materials.
+ * @param format GL_RGBA8 or GL_SRGB8_ALPHA8 @param rgba8 width * height * 4 bytes, first row at v = 0
+ */
 nook_result nook_texture_create_mipped(nook_gpu *gpu, uint32_t format, uint32_t width, uint32_t height,
                                        const void *rgba8, nook_texture *out_texture);
 void nook_texture_destroy(nook_gpu *gpu, nook_texture *texture); /**< id 0 is allowed; becomes zero. */
-/** Waits for the GPU and reads level 0 of a 2D texture, bottom row first, tightly packed. */
+/**
+ * Replaces level 0 whole: rows tightly packed, bottom row (for 3D: slice 0) first.
+ * @param size bytes at `data`; must be what the format and the type ask for
+ */
+void nook_texture_write(nook_gpu *gpu, nook_texture texture, uint32_t gl_format, uint32_t gl_type, const void *data,
+                        size_t size);
+/** The same for a box of texels that lies inside the texture; z 0 and depth 1 for 2D. */
+void nook_texture_write_box(nook_gpu *gpu, nook_texture texture, const uint32_t origin[3], const uint32_t extent[3],
+                            uint32_t gl_format, uint32_t gl_type, const void *data, size_t size);
+/** Waits for the GPU and reads level 0, bottom row (for 3D: slice 0) first, tightly packed. `out_size` must be enough. */
 void nook_texture_read(nook_gpu *gpu, nook_texture texture, uint32_t gl_format, uint32_t gl_type, void *out,
                        size_t out_size);
 
-/** @param data NULL leaves it undefined */
+/** @param data NULL leaves it undefined @return NOOK_E_MEMORY; NOOK_E_RANGE for no bytes */
 nook_result nook_buffer_create(nook_gpu *gpu, const void *data, size_t size, nook_buffer *out_buffer);
 void nook_buffer_destroy(nook_gpu *gpu, nook_buffer *buffer);
 /** Replaces bytes from `offset`; must fit. */
 void nook_buffer_update(nook_gpu *gpu, nook_buffer buffer, size_t offset, const void *data, size_t size);
+/** Waits for the GPU and reads bytes from `offset`; must fit. */
+void nook_buffer_read(nook_gpu *gpu, nook_buffer buffer, size_t offset, void *out, size_t size);
 
 /**
  * A program from shader files, compiled once per (paths, defines) and then found again.
  *
- * Files may #include "path" relative to source_root or to shaders/; errors name file and line through includes.
+ * Files may #include "path" relative to source_root or to shaders/, as often as they like; a file with a line
+ * `#pragma once` counts once. An #include is obeyed also inside #if. Errors name file and line through includes.
+ * A file without #version gets `#version 450 core`.
  * @param defines   lines put after #version, for example "#define RAYS 8\n"; "" for none. Part of the identity.
- * @return NOOK_E_NOT_FOUND a file; NOOK_E_DEVICE it does not compile or link (the driver's lines are in the log)
+ * @return NOOK_E_NOT_FOUND a file; NOOK_E_FORMAT includes go in a circle, too deep or are misspelt; NOOK_E_MEMORY;
+ *         NOOK_E_DEVICE it does not compile or link (the driver's lines are in the log). *out_program is untouched then.
  */
 nook_result nook_program_compute(nook_gpu *gpu, const char *path, const char *defines, nook_program *out_program);
 nook_result nook_program_raster(nook_gpu *gpu, const char *vertex_path, const char *fragment_path, const char *defines,
@@ -103,6 +147,26 @@ static inline uint32_t nook_groups(uint32_t size, uint32_t local)
 {
     return (size + local - 1) / local;
 }
+
+/**
+ * A target of draws: colour textures in the order of the shader's outputs, then depth.
+ * @param colours level 0, all of one size; colour_count 0 to 8 @param depth id 0: none
+ * @return NOOK_E_RANGE no texture, too many, or sizes that differ; NOOK_E_DEVICE the driver cannot draw to these formats
+ */
+nook_result nook_framebuffer_create(nook_gpu *gpu, const nook_texture *colours, uint32_t colour_count,
+                                    nook_texture depth, nook_framebuffer *out_framebuffer);
+void nook_framebuffer_destroy(nook_gpu *gpu, nook_framebuffer *framebuffer); /**< id 0 is allowed; becomes zero. */
+/** Draws go there from now on, and the viewport covers it. */
+void nook_framebuffer_bind(nook_gpu *gpu, nook_framebuffer framebuffer);
+
+/** False on software GL, where timer queries lie: measure wall time around nook_gpu_finish there. */
+bool nook_gpu_timer_trusted(const nook_gpu *gpu);
+void nook_gpu_timer_create(nook_gpu *gpu, nook_gpu_timer *out_timer);
+void nook_gpu_timer_destroy(nook_gpu *gpu, nook_gpu_timer *timer); /**< Zeroed timers are allowed; becomes zero. */
+void nook_gpu_timer_begin(nook_gpu *gpu, nook_gpu_timer timer);
+void nook_gpu_timer_end(nook_gpu *gpu, nook_gpu_timer timer);
+/** Waits for the end and gives milliseconds between begin and end on the GPU. */
+double nook_gpu_timer_ms(nook_gpu *gpu, nook_gpu_timer timer);
 
 /** Waits until the GPU has done everything. */
 void nook_gpu_finish(nook_gpu *gpu);

@@ -1,0 +1,368 @@
+/**
+ * gl_functions.h - the functions of OpenGL 4.5 core that Nook calls, as a table that belongs to a device.
+ *
+ * Types and enumerators come from Khronos' own header; nothing is linked: OSMesa, EGL and GLFW each hand out their own
+ * addresses, and a process may hold contexts of several kinds. To use one more function add its line to the list.
+ */
+#pragma once
+#include "engine/core/result.h"
+#include <GL/glcorearb.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* X(type in glcorearb.h, name without "gl") */
+/* clang-format off */
+#define NOOK_GL_FUNCTIONS(X) \
+    /* State */ \
+    X(PFNGLENABLEPROC, Enable) \
+    X(PFNGLDISABLEPROC, Disable) \
+    X(PFNGLENABLEIPROC, Enablei) \
+    X(PFNGLDISABLEIPROC, Disablei) \
+    X(PFNGLISENABLEDPROC, IsEnabled) \
+    X(PFNGLGETERRORPROC, GetError) \
+    X(PFNGLGETSTRINGPROC, GetString) \
+    X(PFNGLGETSTRINGIPROC, GetStringi) \
+    X(PFNGLGETINTEGERVPROC, GetIntegerv) \
+    X(PFNGLGETINTEGER64VPROC, GetInteger64v) \
+    X(PFNGLGETFLOATVPROC, GetFloatv) \
+    X(PFNGLGETBOOLEANVPROC, GetBooleanv) \
+    X(PFNGLGETINTEGERI_VPROC, GetIntegeri_v) \
+    X(PFNGLHINTPROC, Hint) \
+    X(PFNGLFLUSHPROC, Flush) \
+    X(PFNGLFINISHPROC, Finish) \
+    X(PFNGLPIXELSTOREIPROC, PixelStorei) \
+    /* Raster state */ \
+    X(PFNGLVIEWPORTPROC, Viewport) \
+    X(PFNGLVIEWPORTINDEXEDFPROC, ViewportIndexedf) \
+    X(PFNGLSCISSORPROC, Scissor) \
+    X(PFNGLSCISSORINDEXEDPROC, ScissorIndexed) \
+    X(PFNGLDEPTHRANGEPROC, DepthRange) \
+    X(PFNGLDEPTHRANGEFPROC, DepthRangef) \
+    X(PFNGLDEPTHFUNCPROC, DepthFunc) \
+    X(PFNGLDEPTHMASKPROC, DepthMask) \
+    X(PFNGLCOLORMASKPROC, ColorMask) \
+    X(PFNGLCOLORMASKIPROC, ColorMaski) \
+    X(PFNGLCLIPCONTROLPROC, ClipControl) \
+    X(PFNGLCULLFACEPROC, CullFace) \
+    X(PFNGLFRONTFACEPROC, FrontFace) \
+    X(PFNGLPOLYGONMODEPROC, PolygonMode) \
+    X(PFNGLPOLYGONOFFSETPROC, PolygonOffset) \
+    X(PFNGLLINEWIDTHPROC, LineWidth) \
+    X(PFNGLPOINTSIZEPROC, PointSize) \
+    X(PFNGLBLENDFUNCPROC, BlendFunc) \
+    X(PFNGLBLENDFUNCSEPARATEPROC, BlendFuncSeparate) \
+    X(PFNGLBLENDFUNCIPROC, BlendFunci) \
+    X(PFNGLBLENDFUNCSEPARATEIPROC, BlendFuncSeparatei) \
+    X(PFNGLBLENDEQUATIONPROC, BlendEquation) \
+    X(PFNGLBLENDEQUATIONSEPARATEPROC, BlendEquationSeparate) \
+    X(PFNGLBLENDEQUATIONIPROC, BlendEquationi) \
+    X(PFNGLBLENDCOLORPROC, BlendColor) \
+    X(PFNGLLOGICOPPROC, LogicOp) \
+    X(PFNGLSTENCILFUNCPROC, StencilFunc) \
+    X(PFNGLSTENCILMASKPROC, StencilMask) \
+    X(PFNGLSTENCILOPPROC, StencilOp) \
+    X(PFNGLSTENCILFUNCSEPARATEPROC, StencilFuncSeparate) \
+    X(PFNGLSTENCILMASKSEPARATEPROC, StencilMaskSeparate) \
+    X(PFNGLSTENCILOPSEPARATEPROC, StencilOpSeparate) \
+    X(PFNGLSAMPLEMASKIPROC, SampleMaski) \
+    X(PFNGLMINSAMPLESHADINGPROC, MinSampleShading) \
+    X(PFNGLPROVOKINGVERTEXPROC, ProvokingVertex) \
+    X(PFNGLPRIMITIVERESTARTINDEXPROC, PrimitiveRestartIndex) \
+    X(PFNGLPATCHPARAMETERIPROC, PatchParameteri) \
+    /* Clears and copies */ \
+    X(PFNGLCLEARPROC, Clear) \
+    X(PFNGLCLEARCOLORPROC, ClearColor) \
+    X(PFNGLCLEARDEPTHPROC, ClearDepth) \
+    X(PFNGLCLEARDEPTHFPROC, ClearDepthf) \
+    X(PFNGLCLEARSTENCILPROC, ClearStencil) \
+    X(PFNGLCLEARBUFFERFVPROC, ClearBufferfv) \
+    X(PFNGLCLEARBUFFERIVPROC, ClearBufferiv) \
+    X(PFNGLCLEARBUFFERUIVPROC, ClearBufferuiv) \
+    X(PFNGLCLEARBUFFERFIPROC, ClearBufferfi) \
+    X(PFNGLCLEARNAMEDFRAMEBUFFERFVPROC, ClearNamedFramebufferfv) \
+    X(PFNGLCLEARNAMEDFRAMEBUFFERIVPROC, ClearNamedFramebufferiv) \
+    X(PFNGLCLEARNAMEDFRAMEBUFFERUIVPROC, ClearNamedFramebufferuiv) \
+    X(PFNGLCLEARNAMEDFRAMEBUFFERFIPROC, ClearNamedFramebufferfi) \
+    X(PFNGLCLEARTEXIMAGEPROC, ClearTexImage) \
+    X(PFNGLCLEARTEXSUBIMAGEPROC, ClearTexSubImage) \
+    X(PFNGLCLEARNAMEDBUFFERDATAPROC, ClearNamedBufferData) \
+    X(PFNGLCLEARNAMEDBUFFERSUBDATAPROC, ClearNamedBufferSubData) \
+    X(PFNGLCOPYIMAGESUBDATAPROC, CopyImageSubData) \
+    X(PFNGLCOPYNAMEDBUFFERSUBDATAPROC, CopyNamedBufferSubData) \
+    X(PFNGLINVALIDATETEXIMAGEPROC, InvalidateTexImage) \
+    X(PFNGLINVALIDATEBUFFERDATAPROC, InvalidateBufferData) \
+    X(PFNGLINVALIDATENAMEDFRAMEBUFFERDATAPROC, InvalidateNamedFramebufferData) \
+    /* Textures and samplers */ \
+    X(PFNGLCREATETEXTURESPROC, CreateTextures) \
+    X(PFNGLDELETETEXTURESPROC, DeleteTextures) \
+    X(PFNGLISTEXTUREPROC, IsTexture) \
+    X(PFNGLTEXTURESTORAGE1DPROC, TextureStorage1D) \
+    X(PFNGLTEXTURESTORAGE2DPROC, TextureStorage2D) \
+    X(PFNGLTEXTURESTORAGE3DPROC, TextureStorage3D) \
+    X(PFNGLTEXTURESTORAGE2DMULTISAMPLEPROC, TextureStorage2DMultisample) \
+    X(PFNGLTEXTURESTORAGE3DMULTISAMPLEPROC, TextureStorage3DMultisample) \
+    X(PFNGLTEXTURESUBIMAGE1DPROC, TextureSubImage1D) \
+    X(PFNGLTEXTURESUBIMAGE2DPROC, TextureSubImage2D) \
+    X(PFNGLTEXTURESUBIMAGE3DPROC, TextureSubImage3D) \
+    X(PFNGLCOMPRESSEDTEXTURESUBIMAGE2DPROC, CompressedTextureSubImage2D) \
+    X(PFNGLCOMPRESSEDTEXTURESUBIMAGE3DPROC, CompressedTextureSubImage3D) \
+    X(PFNGLCOPYTEXTURESUBIMAGE2DPROC, CopyTextureSubImage2D) \
+    X(PFNGLCOPYTEXTURESUBIMAGE3DPROC, CopyTextureSubImage3D) \
+    X(PFNGLTEXTUREPARAMETERIPROC, TextureParameteri) \
+    X(PFNGLTEXTUREPARAMETERFPROC, TextureParameterf) \
+    X(PFNGLTEXTUREPARAMETERIVPROC, TextureParameteriv) \
+    X(PFNGLTEXTUREPARAMETERFVPROC, TextureParameterfv) \
+    X(PFNGLGENERATETEXTUREMIPMAPPROC, GenerateTextureMipmap) \
+    X(PFNGLGETTEXTUREIMAGEPROC, GetTextureImage) \
+    X(PFNGLGETTEXTURESUBIMAGEPROC, GetTextureSubImage) \
+    X(PFNGLGETTEXTUREPARAMETERIVPROC, GetTextureParameteriv) \
+    X(PFNGLGETTEXTURELEVELPARAMETERIVPROC, GetTextureLevelParameteriv) \
+    X(PFNGLTEXTUREBUFFERPROC, TextureBuffer) \
+    X(PFNGLTEXTUREBUFFERRANGEPROC, TextureBufferRange) \
+    X(PFNGLGENTEXTURESPROC, GenTextures) \
+    X(PFNGLTEXTUREVIEWPROC, TextureView) \
+    X(PFNGLBINDTEXTUREPROC, BindTexture) \
+    X(PFNGLACTIVETEXTUREPROC, ActiveTexture) \
+    X(PFNGLBINDTEXTUREUNITPROC, BindTextureUnit) \
+    X(PFNGLBINDTEXTURESPROC, BindTextures) \
+    X(PFNGLBINDIMAGETEXTUREPROC, BindImageTexture) \
+    X(PFNGLBINDIMAGETEXTURESPROC, BindImageTextures) \
+    X(PFNGLCREATESAMPLERSPROC, CreateSamplers) \
+    X(PFNGLDELETESAMPLERSPROC, DeleteSamplers) \
+    X(PFNGLSAMPLERPARAMETERIPROC, SamplerParameteri) \
+    X(PFNGLSAMPLERPARAMETERFPROC, SamplerParameterf) \
+    X(PFNGLSAMPLERPARAMETERFVPROC, SamplerParameterfv) \
+    X(PFNGLBINDSAMPLERPROC, BindSampler) \
+    X(PFNGLBINDSAMPLERSPROC, BindSamplers) \
+    X(PFNGLGETINTERNALFORMATIVPROC, GetInternalformativ) \
+    /* Buffers */ \
+    X(PFNGLCREATEBUFFERSPROC, CreateBuffers) \
+    X(PFNGLDELETEBUFFERSPROC, DeleteBuffers) \
+    X(PFNGLISBUFFERPROC, IsBuffer) \
+    X(PFNGLNAMEDBUFFERSTORAGEPROC, NamedBufferStorage) \
+    X(PFNGLNAMEDBUFFERDATAPROC, NamedBufferData) \
+    X(PFNGLNAMEDBUFFERSUBDATAPROC, NamedBufferSubData) \
+    X(PFNGLGETNAMEDBUFFERSUBDATAPROC, GetNamedBufferSubData) \
+    X(PFNGLGETNAMEDBUFFERPARAMETERI64VPROC, GetNamedBufferParameteri64v) \
+    X(PFNGLMAPNAMEDBUFFERPROC, MapNamedBuffer) \
+    X(PFNGLMAPNAMEDBUFFERRANGEPROC, MapNamedBufferRange) \
+    X(PFNGLUNMAPNAMEDBUFFERPROC, UnmapNamedBuffer) \
+    X(PFNGLFLUSHMAPPEDNAMEDBUFFERRANGEPROC, FlushMappedNamedBufferRange) \
+    X(PFNGLBINDBUFFERPROC, BindBuffer) \
+    X(PFNGLBINDBUFFERBASEPROC, BindBufferBase) \
+    X(PFNGLBINDBUFFERRANGEPROC, BindBufferRange) \
+    X(PFNGLBINDBUFFERSBASEPROC, BindBuffersBase) \
+    X(PFNGLBINDBUFFERSRANGEPROC, BindBuffersRange) \
+    /* Framebuffers */ \
+    X(PFNGLCREATEFRAMEBUFFERSPROC, CreateFramebuffers) \
+    X(PFNGLDELETEFRAMEBUFFERSPROC, DeleteFramebuffers) \
+    X(PFNGLBINDFRAMEBUFFERPROC, BindFramebuffer) \
+    X(PFNGLNAMEDFRAMEBUFFERTEXTUREPROC, NamedFramebufferTexture) \
+    X(PFNGLNAMEDFRAMEBUFFERTEXTURELAYERPROC, NamedFramebufferTextureLayer) \
+    X(PFNGLNAMEDFRAMEBUFFERPARAMETERIPROC, NamedFramebufferParameteri) \
+    X(PFNGLNAMEDFRAMEBUFFERDRAWBUFFERPROC, NamedFramebufferDrawBuffer) \
+    X(PFNGLNAMEDFRAMEBUFFERDRAWBUFFERSPROC, NamedFramebufferDrawBuffers) \
+    X(PFNGLNAMEDFRAMEBUFFERREADBUFFERPROC, NamedFramebufferReadBuffer) \
+    X(PFNGLCHECKNAMEDFRAMEBUFFERSTATUSPROC, CheckNamedFramebufferStatus) \
+    X(PFNGLBLITNAMEDFRAMEBUFFERPROC, BlitNamedFramebuffer) \
+    X(PFNGLREADPIXELSPROC, ReadPixels) \
+    X(PFNGLREADNPIXELSPROC, ReadnPixels) \
+    X(PFNGLREADBUFFERPROC, ReadBuffer) \
+    X(PFNGLDRAWBUFFERPROC, DrawBuffer) \
+    X(PFNGLDRAWBUFFERSPROC, DrawBuffers) \
+    X(PFNGLCREATERENDERBUFFERSPROC, CreateRenderbuffers) \
+    X(PFNGLDELETERENDERBUFFERSPROC, DeleteRenderbuffers) \
+    X(PFNGLNAMEDRENDERBUFFERSTORAGEPROC, NamedRenderbufferStorage) \
+    X(PFNGLNAMEDRENDERBUFFERSTORAGEMULTISAMPLEPROC, NamedRenderbufferStorageMultisample) \
+    X(PFNGLNAMEDFRAMEBUFFERRENDERBUFFERPROC, NamedFramebufferRenderbuffer) \
+    /* Vertex arrays */ \
+    X(PFNGLCREATEVERTEXARRAYSPROC, CreateVertexArrays) \
+    X(PFNGLDELETEVERTEXARRAYSPROC, DeleteVertexArrays) \
+    X(PFNGLBINDVERTEXARRAYPROC, BindVertexArray) \
+    X(PFNGLENABLEVERTEXARRAYATTRIBPROC, EnableVertexArrayAttrib) \
+    X(PFNGLDISABLEVERTEXARRAYATTRIBPROC, DisableVertexArrayAttrib) \
+    X(PFNGLVERTEXARRAYELEMENTBUFFERPROC, VertexArrayElementBuffer) \
+    X(PFNGLVERTEXARRAYVERTEXBUFFERPROC, VertexArrayVertexBuffer) \
+    X(PFNGLVERTEXARRAYVERTEXBUFFERSPROC, VertexArrayVertexBuffers) \
+    X(PFNGLVERTEXARRAYATTRIBFORMATPROC, VertexArrayAttribFormat) \
+    X(PFNGLVERTEXARRAYATTRIBIFORMATPROC, VertexArrayAttribIFormat) \
+    X(PFNGLVERTEXARRAYATTRIBLFORMATPROC, VertexArrayAttribLFormat) \
+    X(PFNGLVERTEXARRAYATTRIBBINDINGPROC, VertexArrayAttribBinding) \
+    X(PFNGLVERTEXARRAYBINDINGDIVISORPROC, VertexArrayBindingDivisor) \
+    X(PFNGLVERTEXATTRIB1FPROC, VertexAttrib1f) \
+    X(PFNGLVERTEXATTRIB2FPROC, VertexAttrib2f) \
+    X(PFNGLVERTEXATTRIB3FPROC, VertexAttrib3f) \
+    X(PFNGLVERTEXATTRIB4FPROC, VertexAttrib4f) \
+    X(PFNGLVERTEXATTRIB4FVPROC, VertexAttrib4fv) \
+    X(PFNGLVERTEXATTRIBI4IPROC, VertexAttribI4i) \
+    X(PFNGLVERTEXATTRIBI4UIPROC, VertexAttribI4ui) \
+    /* Draws and dispatches */ \
+    X(PFNGLDRAWARRAYSPROC, DrawArrays) \
+    X(PFNGLDRAWARRAYSINSTANCEDPROC, DrawArraysInstanced) \
+    X(PFNGLDRAWARRAYSINSTANCEDBASEINSTANCEPROC, DrawArraysInstancedBaseInstance) \
+    X(PFNGLDRAWARRAYSINDIRECTPROC, DrawArraysIndirect) \
+    X(PFNGLDRAWELEMENTSPROC, DrawElements) \
+    X(PFNGLDRAWRANGEELEMENTSPROC, DrawRangeElements) \
+    X(PFNGLDRAWELEMENTSINSTANCEDPROC, DrawElementsInstanced) \
+    X(PFNGLDRAWELEMENTSBASEVERTEXPROC, DrawElementsBaseVertex) \
+    X(PFNGLDRAWELEMENTSINSTANCEDBASEVERTEXPROC, DrawElementsInstancedBaseVertex) \
+    X(PFNGLDRAWELEMENTSINSTANCEDBASEINSTANCEPROC, DrawElementsInstancedBaseInstance) \
+    X(PFNGLDRAWELEMENTSINSTANCEDBASEVERTEXBASEINSTANCEPROC, DrawElementsInstancedBaseVertexBaseInstance) \
+    X(PFNGLDRAWELEMENTSINDIRECTPROC, DrawElementsIndirect) \
+    X(PFNGLMULTIDRAWARRAYSPROC, MultiDrawArrays) \
+    X(PFNGLMULTIDRAWELEMENTSPROC, MultiDrawElements) \
+    X(PFNGLMULTIDRAWELEMENTSBASEVERTEXPROC, MultiDrawElementsBaseVertex) \
+    X(PFNGLMULTIDRAWARRAYSINDIRECTPROC, MultiDrawArraysIndirect) \
+    X(PFNGLMULTIDRAWELEMENTSINDIRECTPROC, MultiDrawElementsIndirect) \
+    X(PFNGLDISPATCHCOMPUTEPROC, DispatchCompute) \
+    X(PFNGLDISPATCHCOMPUTEINDIRECTPROC, DispatchComputeIndirect) \
+    X(PFNGLMEMORYBARRIERPROC, MemoryBarrier) \
+    X(PFNGLMEMORYBARRIERBYREGIONPROC, MemoryBarrierByRegion) \
+    X(PFNGLTEXTUREBARRIERPROC, TextureBarrier) \
+    /* Shaders and programs */ \
+    X(PFNGLCREATESHADERPROC, CreateShader) \
+    X(PFNGLDELETESHADERPROC, DeleteShader) \
+    X(PFNGLSHADERSOURCEPROC, ShaderSource) \
+    X(PFNGLCOMPILESHADERPROC, CompileShader) \
+    X(PFNGLGETSHADERIVPROC, GetShaderiv) \
+    X(PFNGLGETSHADERINFOLOGPROC, GetShaderInfoLog) \
+    X(PFNGLCREATEPROGRAMPROC, CreateProgram) \
+    X(PFNGLDELETEPROGRAMPROC, DeleteProgram) \
+    X(PFNGLATTACHSHADERPROC, AttachShader) \
+    X(PFNGLDETACHSHADERPROC, DetachShader) \
+    X(PFNGLLINKPROGRAMPROC, LinkProgram) \
+    X(PFNGLVALIDATEPROGRAMPROC, ValidateProgram) \
+    X(PFNGLUSEPROGRAMPROC, UseProgram) \
+    X(PFNGLGETPROGRAMIVPROC, GetProgramiv) \
+    X(PFNGLGETPROGRAMINFOLOGPROC, GetProgramInfoLog) \
+    X(PFNGLGETPROGRAMBINARYPROC, GetProgramBinary) \
+    X(PFNGLPROGRAMBINARYPROC, ProgramBinary) \
+    X(PFNGLPROGRAMPARAMETERIPROC, ProgramParameteri) \
+    X(PFNGLCREATESHADERPROGRAMVPROC, CreateShaderProgramv) \
+    X(PFNGLBINDATTRIBLOCATIONPROC, BindAttribLocation) \
+    X(PFNGLBINDFRAGDATALOCATIONPROC, BindFragDataLocation) \
+    X(PFNGLGETATTRIBLOCATIONPROC, GetAttribLocation) \
+    X(PFNGLGETUNIFORMLOCATIONPROC, GetUniformLocation) \
+    X(PFNGLGETUNIFORMBLOCKINDEXPROC, GetUniformBlockIndex) \
+    X(PFNGLUNIFORMBLOCKBINDINGPROC, UniformBlockBinding) \
+    X(PFNGLGETACTIVEUNIFORMPROC, GetActiveUniform) \
+    X(PFNGLGETACTIVEUNIFORMBLOCKIVPROC, GetActiveUniformBlockiv) \
+    X(PFNGLGETPROGRAMRESOURCEINDEXPROC, GetProgramResourceIndex) \
+    X(PFNGLGETPROGRAMRESOURCELOCATIONPROC, GetProgramResourceLocation) \
+    X(PFNGLGETPROGRAMRESOURCEIVPROC, GetProgramResourceiv) \
+    X(PFNGLGETPROGRAMRESOURCENAMEPROC, GetProgramResourceName) \
+    X(PFNGLGETPROGRAMINTERFACEIVPROC, GetProgramInterfaceiv) \
+    X(PFNGLSHADERSTORAGEBLOCKBINDINGPROC, ShaderStorageBlockBinding) \
+    X(PFNGLCREATEPROGRAMPIPELINESPROC, CreateProgramPipelines) \
+    X(PFNGLDELETEPROGRAMPIPELINESPROC, DeleteProgramPipelines) \
+    X(PFNGLUSEPROGRAMSTAGESPROC, UseProgramStages) \
+    X(PFNGLBINDPROGRAMPIPELINEPROC, BindProgramPipeline) \
+    /* Uniforms of the program in use */ \
+    X(PFNGLUNIFORM1IPROC, Uniform1i) \
+    X(PFNGLUNIFORM2IPROC, Uniform2i) \
+    X(PFNGLUNIFORM3IPROC, Uniform3i) \
+    X(PFNGLUNIFORM4IPROC, Uniform4i) \
+    X(PFNGLUNIFORM1UIPROC, Uniform1ui) \
+    X(PFNGLUNIFORM2UIPROC, Uniform2ui) \
+    X(PFNGLUNIFORM3UIPROC, Uniform3ui) \
+    X(PFNGLUNIFORM4UIPROC, Uniform4ui) \
+    X(PFNGLUNIFORM1FPROC, Uniform1f) \
+    X(PFNGLUNIFORM2FPROC, Uniform2f) \
+    X(PFNGLUNIFORM3FPROC, Uniform3f) \
+    X(PFNGLUNIFORM4FPROC, Uniform4f) \
+    X(PFNGLUNIFORM1IVPROC, Uniform1iv) \
+    X(PFNGLUNIFORM2IVPROC, Uniform2iv) \
+    X(PFNGLUNIFORM3IVPROC, Uniform3iv) \
+    X(PFNGLUNIFORM4IVPROC, Uniform4iv) \
+    X(PFNGLUNIFORM1UIVPROC, Uniform1uiv) \
+    X(PFNGLUNIFORM2UIVPROC, Uniform2uiv) \
+    X(PFNGLUNIFORM3UIVPROC, Uniform3uiv) \
+    X(PFNGLUNIFORM4UIVPROC, Uniform4uiv) \
+    X(PFNGLUNIFORM1FVPROC, Uniform1fv) \
+    X(PFNGLUNIFORM2FVPROC, Uniform2fv) \
+    X(PFNGLUNIFORM3FVPROC, Uniform3fv) \
+    X(PFNGLUNIFORM4FVPROC, Uniform4fv) \
+    X(PFNGLUNIFORMMATRIX2FVPROC, UniformMatrix2fv) \
+    X(PFNGLUNIFORMMATRIX3FVPROC, UniformMatrix3fv) \
+    X(PFNGLUNIFORMMATRIX4FVPROC, UniformMatrix4fv) \
+    X(PFNGLUNIFORMMATRIX3X4FVPROC, UniformMatrix3x4fv) \
+    X(PFNGLUNIFORMMATRIX4X3FVPROC, UniformMatrix4x3fv) \
+    /* Uniforms of a named program */ \
+    X(PFNGLPROGRAMUNIFORM1IPROC, ProgramUniform1i) \
+    X(PFNGLPROGRAMUNIFORM2IPROC, ProgramUniform2i) \
+    X(PFNGLPROGRAMUNIFORM3IPROC, ProgramUniform3i) \
+    X(PFNGLPROGRAMUNIFORM4IPROC, ProgramUniform4i) \
+    X(PFNGLPROGRAMUNIFORM1UIPROC, ProgramUniform1ui) \
+    X(PFNGLPROGRAMUNIFORM2UIPROC, ProgramUniform2ui) \
+    X(PFNGLPROGRAMUNIFORM3UIPROC, ProgramUniform3ui) \
+    X(PFNGLPROGRAMUNIFORM4UIPROC, ProgramUniform4ui) \
+    X(PFNGLPROGRAMUNIFORM1FPROC, ProgramUniform1f) \
+    X(PFNGLPROGRAMUNIFORM2FPROC, ProgramUniform2f) \
+    X(PFNGLPROGRAMUNIFORM3FPROC, ProgramUniform3f) \
+    X(PFNGLPROGRAMUNIFORM4FPROC, ProgramUniform4f) \
+    X(PFNGLPROGRAMUNIFORM1IVPROC, ProgramUniform1iv) \
+    X(PFNGLPROGRAMUNIFORM2IVPROC, ProgramUniform2iv) \
+    X(PFNGLPROGRAMUNIFORM3IVPROC, ProgramUniform3iv) \
+    X(PFNGLPROGRAMUNIFORM4IVPROC, ProgramUniform4iv) \
+    X(PFNGLPROGRAMUNIFORM1UIVPROC, ProgramUniform1uiv) \
+    X(PFNGLPROGRAMUNIFORM2UIVPROC, ProgramUniform2uiv) \
+    X(PFNGLPROGRAMUNIFORM3UIVPROC, ProgramUniform3uiv) \
+    X(PFNGLPROGRAMUNIFORM4UIVPROC, ProgramUniform4uiv) \
+    X(PFNGLPROGRAMUNIFORM1FVPROC, ProgramUniform1fv) \
+    X(PFNGLPROGRAMUNIFORM2FVPROC, ProgramUniform2fv) \
+    X(PFNGLPROGRAMUNIFORM3FVPROC, ProgramUniform3fv) \
+    X(PFNGLPROGRAMUNIFORM4FVPROC, ProgramUniform4fv) \
+    X(PFNGLPROGRAMUNIFORMMATRIX2FVPROC, ProgramUniformMatrix2fv) \
+    X(PFNGLPROGRAMUNIFORMMATRIX3FVPROC, ProgramUniformMatrix3fv) \
+    X(PFNGLPROGRAMUNIFORMMATRIX4FVPROC, ProgramUniformMatrix4fv) \
+    X(PFNGLPROGRAMUNIFORMMATRIX3X4FVPROC, ProgramUniformMatrix3x4fv) \
+    X(PFNGLPROGRAMUNIFORMMATRIX4X3FVPROC, ProgramUniformMatrix4x3fv) \
+    /* Queries and fences */ \
+    X(PFNGLCREATEQUERIESPROC, CreateQueries) \
+    X(PFNGLDELETEQUERIESPROC, DeleteQueries) \
+    X(PFNGLBEGINQUERYPROC, BeginQuery) \
+    X(PFNGLENDQUERYPROC, EndQuery) \
+    X(PFNGLQUERYCOUNTERPROC, QueryCounter) \
+    X(PFNGLGETQUERYIVPROC, GetQueryiv) \
+    X(PFNGLGETQUERYOBJECTIVPROC, GetQueryObjectiv) \
+    X(PFNGLGETQUERYOBJECTUIVPROC, GetQueryObjectuiv) \
+    X(PFNGLGETQUERYOBJECTI64VPROC, GetQueryObjecti64v) \
+    X(PFNGLGETQUERYOBJECTUI64VPROC, GetQueryObjectui64v) \
+    X(PFNGLBEGINCONDITIONALRENDERPROC, BeginConditionalRender) \
+    X(PFNGLENDCONDITIONALRENDERPROC, EndConditionalRender) \
+    X(PFNGLFENCESYNCPROC, FenceSync) \
+    X(PFNGLDELETESYNCPROC, DeleteSync) \
+    X(PFNGLCLIENTWAITSYNCPROC, ClientWaitSync) \
+    X(PFNGLWAITSYNCPROC, WaitSync) \
+    X(PFNGLGETSYNCIVPROC, GetSynciv) \
+    /* Debugging */ \
+    X(PFNGLDEBUGMESSAGECALLBACKPROC, DebugMessageCallback) \
+    X(PFNGLDEBUGMESSAGECONTROLPROC, DebugMessageControl) \
+    X(PFNGLDEBUGMESSAGEINSERTPROC, DebugMessageInsert) \
+    X(PFNGLGETDEBUGMESSAGELOGPROC, GetDebugMessageLog) \
+    X(PFNGLPUSHDEBUGGROUPPROC, PushDebugGroup) \
+    X(PFNGLPOPDEBUGGROUPPROC, PopDebugGroup) \
+    X(PFNGLOBJECTLABELPROC, ObjectLabel) \
+    X(PFNGLGETGRAPHICSRESETSTATUSPROC, GetGraphicsResetStatus)
+/* clang-format on */
+
+/** gl->Clear(GL_COLOR_BUFFER_BIT) is glClear(GL_COLOR_BUFFER_BIT). Complete once nook_gl_load said NOOK_OK. */
+typedef struct nook_gl {
+#define NOOK_GL_MEMBER(type, name) type name;
+    NOOK_GL_FUNCTIONS(NOOK_GL_MEMBER)
+#undef NOOK_GL_MEMBER
+} nook_gl;
+
+/**
+ * Fills the table from the context that is current on this thread.
+ * The version is checked, not the addresses alone: every GetProcAddress gives addresses also for names it never heard of.
+ * @param get_proc nook_context_get_proc, or the host's own GetProcAddress
+ * @return NOOK_E_DEVICE no context is current, it is older than OpenGL 4.5, or an address is missing; *out_gl is untouched
+ */
+nook_result nook_gl_load(void (*(*get_proc)(const char *name))(void), nook_gl *out_gl);
+
+#ifdef __cplusplus
+}
+#endif
