@@ -1,0 +1,114 @@
+#include "modules/bake/cache.h"
+#include "engine/core/clock.h"
+#include "engine/core/file.h"
+#include "engine/core/log.h"
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+enum { PATH_CAPACITY = 4096 };
+
+void nook_bake_free(nook_bake *bake)
+{
+    if (!bake)
+        return;
+    free(bake->bytes);
+    *bake = (nook_bake){ 0 };
+}
+
+/* Decodes everything, voxels too: a file that is handed on is known to be sound. */
+static nook_result check_file(const char *path, const nook_file *file, uint64_t hash, nook_volume_info *out_info)
+{
+    nook_volume volume;
+    nook_result result = nook_volume_decode(path, file->bytes, file->size, &volume);
+    if (result != NOOK_OK)
+        return result;
+    *out_info = volume.info;
+    nook_volume_free(&volume);
+    if (out_info->content_hash != hash)
+        return nook_fail(NOOK_E_FORMAT, "%s: holds another mesh's volume (%016" PRIx64 ")", path,
+                         out_info->content_hash);
+    return NOOK_OK;
+}
+
+/* False: bake. *out_bake is filled but for its time otherwise. */
+static bool read_cached(const char *path, const char *name, uint64_t hash, nook_bake *out_bake)
+{
+    nook_file file;
+    nook_volume_info info;
+    if (!nook_file_exists(path))
+        return false;
+    nook_result result = nook_file_read(path, &file);
+    if (result == NOOK_OK) {
+        result = check_file(path, &file, hash, &info);
+        if (result != NOOK_OK)
+            nook_file_free(&file);
+    }
+    if (result != NOOK_OK) {
+        nook_log_warning("%s: its cached volume was refused; baking it again", name);
+        return false;
+    }
+    *out_bake = (nook_bake){ .bytes = file.bytes, .size = file.size, .info = info, .cache_hit = true };
+    return true;
+}
+
+static nook_result bake_now(const nook_triangles *triangles, const nook_voxelize_desc *desc, nook_bake *out_bake)
+{
+    nook_volume volume;
+    nook_result result = nook_voxelize(triangles, desc, &volume);
+    if (result != NOOK_OK)
+        return result;
+    void *bytes;
+    size_t size;
+    result = nook_volume_encode(&volume, &bytes, &size);
+    if (result == NOOK_OK)
+        *out_bake = (nook_bake){ .bytes = bytes, .size = size, .info = volume.info };
+    nook_volume_free(&volume);
+    return result;
+}
+
+static void write_cached(const char *cache_dir, const char *path, const char *name, const nook_bake *bake)
+{
+    if (nook_directory_make(cache_dir) != NOOK_OK || nook_file_write(path, bake->bytes, bake->size) != NOOK_OK)
+        nook_log_warning("%s: its volume could not be kept in the cache; going on without", name);
+}
+
+static nook_result check_arguments(const nook_triangles *triangles)
+{
+    /* The hash reads what indices and positions promise, before nook_voxelize checks them. */
+    bool sound = (triangles->positions || triangles->vertex_count == 0) &&
+                 (triangles->indices || triangles->index_count == 0) &&
+                 (triangles->stride == 0 || triangles->stride >= 3 * sizeof(float));
+    return sound ? NOOK_OK
+                 : nook_fail(NOOK_E_ARG, "bake: positions or indices are missing, or stride %u is below 12",
+                             triangles->stride);
+}
+
+nook_result nook_bake_cached(const char *cache_dir, const char *name, const nook_triangles *triangles,
+                             const nook_voxelize_desc *desc, nook_bake *out_bake)
+{
+    nook_result result = check_arguments(triangles);
+    if (result != NOOK_OK)
+        return result;
+    double start = nook_clock_ms();
+    uint64_t hash = nook_voxelize_hash(triangles, desc);
+    char path[PATH_CAPACITY] = "";
+    if (cache_dir) {
+        char file_name[32];
+        snprintf(file_name, sizeof file_name, "%016" PRIx64 ".nkv", hash);
+        nook_path_join(path, sizeof path, cache_dir, file_name);
+    }
+    nook_bake bake;
+    if (!cache_dir || !read_cached(path, name, hash, &bake)) {
+        result = bake_now(triangles, desc, &bake);
+        if (result != NOOK_OK)
+            return result;
+        bake.ms = nook_clock_ms() - start;
+        if (cache_dir)
+            write_cached(cache_dir, path, name, &bake);
+    } else {
+        bake.ms = nook_clock_ms() - start;
+    }
+    *out_bake = bake;
+    return NOOK_OK;
+}

@@ -1,0 +1,36 @@
+/**
+ * cache.h - bakes once, reads afterwards. A folder of .nkv files named by content: docs/volume_format.md.
+ */
+#pragma once
+#include "modules/bake/voxelize.h"
+#include <stdbool.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** A volume file image and how it was come by. */
+typedef struct nook_bake {
+    void *bytes; /**< A .nkv file image, checked. Owned; release with nook_bake_free. */
+    size_t size; /**< Bytes. */
+    nook_volume_info info;
+    double ms;      /**< Wall time of voxelising and compressing, or of reading and checking. */
+    bool cache_hit; /**< Nothing was voxelised. */
+} nook_bake;
+
+void nook_bake_free(nook_bake *bake); /**< NULL and zeroed bakes are allowed. */
+
+/**
+ * The volume of a soup, from the cache when it holds a sound one. A damaged, truncated or stale file is warned about, baked
+ * again and replaced. A cache that cannot be read or written is warned about and done without. Any number of threads and
+ * processes may bake into one folder.
+ * @param cache_dir  made when it is missing; NULL: no cache
+ * @param name       what is baked, used in messages only
+ * @return what nook_voxelize and nook_volume_encode return; *out_bake is untouched on failure
+ */
+nook_result nook_bake_cached(const char *cache_dir, const char *name, const nook_triangles *triangles,
+                             const nook_voxelize_desc *desc, nook_bake *out_bake);
+
+#ifdef __cplusplus
+}
+#endif
