@@ -1,0 +1,345 @@
+#include "game/volumes.h"
+#include "engine/core/log.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { BODY_RESOLUTION_MIN = 16, VOXELS_PER_R_MAX = 64, NAME_CAPACITY = 64 };
+
+/* ---- Collecting triangles --------------------------------------------------------------------------------------- */
+
+/* A volume that is being made, and how much room its arrays have. */
+typedef struct builder {
+    nook_scene_volume *volume;
+    size_t vertex_capacity, index_capacity;
+} builder;
+
+static bool voxelized(const nook_scene *scene, const nook_primitive *primitive)
+{
+    return scene->materials[primitive->material].alpha_mode != NOOK_ALPHA_BLEND;
+}
+
+static void count_mesh(const nook_scene *scene, const nook_mesh *mesh, builder *b)
+{
+    for (uint32_t i = 0; i < mesh->primitive_count; i++) {
+        const nook_primitive *primitive = &scene->primitives[mesh->first_primitive + i];
+        if (!voxelized(scene, primitive))
+            continue;
+        b->vertex_capacity += primitive->vertex_count;
+        b->index_capacity += primitive->index_count;
+    }
+}
+
+static nook_result reserve(builder *b, const char *name)
+{
+    nook_scene_volume *volume = b->volume;
+    volume->name = malloc(strlen(name) + 1);
+    if (b->vertex_capacity <= UINT32_MAX) {
+        volume->positions = malloc((b->vertex_capacity + 1) * 3 * sizeof(float));
+        volume->indices = malloc((b->index_capacity + 1) * sizeof(uint32_t));
+    }
+    if (!volume->name || !volume->positions || !volume->indices)
+        return nook_fail(NOOK_E_MEMORY, "%s: no memory for %zu vertices", name, b->vertex_capacity);
+    strcpy(volume->name, name);
+    return NOOK_OK;
+}
+
+static bool finite3(const float p[3])
+{
+    return isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]);
+}
+
+static void append_primitive(const nook_scene *scene, const nook_primitive *primitive, const nook_matrix *space,
+                             nook_scene_volume *volume)
+{
+    uint32_t base = volume->vertex_count;
+    float *positions = volume->positions + (size_t)base * 3;
+    for (uint32_t i = 0; i < primitive->vertex_count; i++) {
+        const float *p = scene->vertices[primitive->first_vertex + i].position;
+        double moved[3] = { p[0], p[1], p[2] };
+        nook_matrix_apply_point(space, moved, moved);
+        for (int axis = 0; axis < 3; axis++)
+            positions[i * 3u + (uint32_t)axis] = (float)moved[axis];
+    }
+    volume->vertex_count += primitive->vertex_count;
+    const uint32_t *indices = scene->indices + primitive->first_index;
+    for (uint32_t i = 0; i + 2 < primitive->index_count; i += 3) {
+        bool finite = true;
+        for (uint32_t k = 0; k < 3; k++)
+            finite = finite && finite3(positions + (size_t)indices[i + k] * 3);
+        for (uint32_t k = 0; finite && k < 3; k++)
+            volume->indices[volume->index_count++] = base + indices[i + k];
+    }
+}
+
+static void append_mesh(const nook_scene *scene, const nook_mesh *mesh, const nook_matrix *space,
+                        nook_scene_volume *volume)
+{
+    for (uint32_t i = 0; i < mesh->primitive_count; i++) {
+        const nook_primitive *primitive = &scene->primitives[mesh->first_primitive + i];
+        if (voxelized(scene, primitive))
+            append_primitive(scene, primitive, space, volume);
+    }
+}
+
+static void free_volume(nook_scene_volume *volume)
+{
+    free(volume->name);
+    free(volume->positions);
+    free(volume->indices);
+    nook_bake_free(&volume->bake);
+    *volume = (nook_scene_volume){ 0 };
+}
+
+/* ---- Resolution ------------------------------------------------------------------------------------------------- */
+
+double nook_volumes_default_r_max(const nook_scene *scene)
+{
+    double squared = 0.0;
+    for (int axis = 0; axis < 3; axis++) {
+        double side = scene->bounds_max[axis] - scene->bounds_min[axis];
+        if (!(side >= 0.0))
+            return 0.0;
+        squared += side * side;
+    }
+    return NOOK_VOLUMES_R_MAX_DEFAULT * sqrt(squared);
+}
+
+uint32_t nook_volumes_body_resolution(double longest, double r_max, uint32_t resolution)
+{
+    double high = resolution > 2 ? resolution / 2 : 1;
+    double low = fmin(BODY_RESOLUTION_MIN, high);
+    double wanted = r_max > 0.0 ? ceil(longest * VOXELS_PER_R_MAX / r_max) : low;
+    return (uint32_t)fmin(fmax(wanted, low), high);
+}
+
+static double longest_side(const nook_scene_volume *volume)
+{
+    double low[3] = { INFINITY, INFINITY, INFINITY }, high[3] = { -INFINITY, -INFINITY, -INFINITY }, longest = 0.0;
+    for (size_t i = 0; i < volume->index_count; i++)
+        for (int axis = 0; axis < 3; axis++) {
+            double at = volume->positions[(size_t)volume->indices[i] * 3 + (size_t)axis];
+            low[axis] = fmin(low[axis], at);
+            high[axis] = fmax(high[axis], at);
+        }
+    for (int axis = 0; axis < 3; axis++)
+        longest = fmax(longest, high[axis] - low[axis]);
+    return longest;
+}
+
+/* The most by which a matrix lengthens one of its axes. */
+static double largest_scale(const nook_matrix *matrix)
+{
+    double largest = 0.0;
+    for (int column = 0; column < 3; column++) {
+        const double *c = matrix->m + column * 4;
+        largest = fmax(largest, sqrt(c[0] * c[0] + c[1] * c[1] + c[2] * c[2]));
+    }
+    return largest;
+}
+
+/* ---- Bodies ----------------------------------------------------------------------------------------------------- */
+
+static bool usable_matrix(const nook_matrix *matrix)
+{
+    nook_matrix inverse;
+    return nook_matrix_inverse_affine(matrix, &inverse) != 0;
+}
+
+static bool is_body(const nook_scene *scene, const nook_node *node)
+{
+    return node->mesh != NOOK_NONE && node->moving && scene->meshes[node->mesh].primitive_count > 0;
+}
+
+static bool is_static(const nook_scene *scene, const nook_node *node)
+{
+    return node->mesh != NOOK_NONE && !node->moving && scene->meshes[node->mesh].primitive_count > 0;
+}
+
+static void name_mesh(const nook_scene *scene, const nook_node *node, char out[NAME_CAPACITY])
+{
+    const char *name = scene->meshes[node->mesh].name;
+    if (name[0])
+        snprintf(out, NAME_CAPACITY, "%s", name);
+    else if (node->name[0])
+        snprintf(out, NAME_CAPACITY, "%s", node->name);
+    else
+        snprintf(out, NAME_CAPACITY, "mesh %u", node->mesh);
+}
+
+static void add_occluder(nook_scene_volumes *out, uint32_t volume, uint32_t node, const nook_matrix *world_from_mesh)
+{
+    out->occluders[out->occluder_count++] = (nook_scene_occluder){ volume, node, *world_from_mesh };
+}
+
+/* Keeps the volume that was built in the next place of `out`, unless nothing came together. */
+static bool keep_volume(nook_scene_volumes *out)
+{
+    nook_scene_volume *volume = &out->volumes[out->volume_count];
+    if (volume->index_count == 0) {
+        free_volume(volume);
+        return false;
+    }
+    out->volume_count++;
+    return true;
+}
+
+static nook_result collect_static(const nook_scene *scene, nook_scene_volumes *out)
+{
+    builder b = { .volume = &out->volumes[out->volume_count] };
+    for (uint32_t i = 0; i < scene->node_count; i++)
+        if (is_static(scene, &scene->nodes[i]))
+            count_mesh(scene, &scene->meshes[scene->nodes[i].mesh], &b);
+    if (b.index_capacity == 0)
+        return NOOK_OK;
+    nook_result result = reserve(&b, "static");
+    if (result != NOOK_OK) {
+        free_volume(b.volume);
+        return result;
+    }
+    double centre[3];
+    for (int axis = 0; axis < 3; axis++)
+        centre[axis] = scene->bounds_min[axis] * 0.5 + scene->bounds_max[axis] * 0.5;
+    nook_matrix mesh_from_world = nook_matrix_translation(-centre[0], -centre[1], -centre[2]);
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        const nook_node *node = &scene->nodes[i];
+        if (!is_static(scene, node))
+            continue;
+        nook_matrix mesh_from_local = nook_matrix_multiply(&mesh_from_world, &node->world_from_local);
+        append_mesh(scene, &scene->meshes[node->mesh], &mesh_from_local, b.volume);
+    }
+    nook_matrix world_from_mesh = nook_matrix_translation(centre[0], centre[1], centre[2]);
+    if (keep_volume(out))
+        add_occluder(out, out->volume_count - 1, NOOK_NONE, &world_from_mesh);
+    return NOOK_OK;
+}
+
+static nook_result collect_body(const nook_scene *scene, uint32_t node_index, uint32_t *volume_of_mesh,
+                                nook_scene_volumes *out)
+{
+    const nook_node *node = &scene->nodes[node_index];
+    const nook_mesh *mesh = &scene->meshes[node->mesh];
+    char name[NAME_CAPACITY];
+    name_mesh(scene, node, name);
+    builder b = { .volume = &out->volumes[out->volume_count] };
+    count_mesh(scene, mesh, &b);
+    nook_result result = reserve(&b, name);
+    if (result != NOOK_OK) {
+        free_volume(b.volume);
+        return result;
+    }
+    nook_matrix identity = nook_matrix_identity();
+    append_mesh(scene, mesh, &identity, b.volume);
+    if (keep_volume(out))
+        volume_of_mesh[node->mesh] = out->volume_count - 1;
+    return NOOK_OK;
+}
+
+/* volume_of_mesh: NOOK_NONE everywhere at first. */
+static nook_result collect_bodies(const nook_scene *scene, uint32_t *volume_of_mesh, nook_scene_volumes *out)
+{
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        const nook_node *node = &scene->nodes[i];
+        if (!is_body(scene, node))
+            continue;
+        if (!usable_matrix(&node->world_from_local)) {
+            nook_log_warning("%s: node '%s' is flattened to nothing by its scale; it darkens nothing", scene->path,
+                             node->name);
+            continue;
+        }
+        if (volume_of_mesh[node->mesh] == NOOK_NONE) {
+            nook_result result = collect_body(scene, i, volume_of_mesh, out);
+            if (result != NOOK_OK)
+                return result;
+        }
+        if (volume_of_mesh[node->mesh] != NOOK_NONE)
+            add_occluder(out, volume_of_mesh[node->mesh], i, &node->world_from_local);
+    }
+    return NOOK_OK;
+}
+
+/* ---- Baking ----------------------------------------------------------------------------------------------------- */
+
+/* The static body takes all of `resolution`; a mesh takes what its largest instance needs. */
+static void choose_resolutions(nook_scene_volumes *volumes, uint32_t resolution)
+{
+    for (uint32_t i = 0; i < volumes->occluder_count; i++) {
+        const nook_scene_occluder *occluder = &volumes->occluders[i];
+        nook_scene_volume *volume = &volumes->volumes[occluder->volume];
+        uint32_t needed = resolution;
+        if (occluder->node != NOOK_NONE) {
+            double longest = longest_side(volume) * largest_scale(&occluder->world_from_mesh);
+            needed = nook_volumes_body_resolution(longest, volumes->r_max, resolution);
+        }
+        if (needed > volume->resolution)
+            volume->resolution = needed;
+    }
+}
+
+static nook_result bake_all(const nook_volumes_desc *desc, nook_scene_volumes *volumes)
+{
+    for (uint32_t i = 0; i < volumes->volume_count; i++) {
+        nook_scene_volume *volume = &volumes->volumes[i];
+        const nook_triangles triangles = { volume->positions, 0, volume->vertex_count, volume->indices,
+                                           volume->index_count };
+        const nook_voxelize_desc how = { .resolution = volume->resolution, .threads = desc->threads };
+        nook_result result = nook_bake_cached(desc->cache_dir, volume->name, &triangles, &how, &volume->bake);
+        if (result != NOOK_OK)
+            return result;
+        if (desc->progress)
+            desc->progress(desc->user, volume, i, volumes->volume_count);
+    }
+    return NOOK_OK;
+}
+
+static nook_result collect(const nook_scene *scene, nook_scene_volumes *out)
+{
+    /* At most one volume per mesh and one for the static body, one occluder per node and one. */
+    out->volumes = calloc((size_t)scene->mesh_count + 1, sizeof *out->volumes);
+    out->occluders = calloc((size_t)scene->node_count + 1, sizeof *out->occluders);
+    uint32_t *volume_of_mesh = malloc(((size_t)scene->mesh_count + 1) * sizeof *volume_of_mesh);
+    nook_result result = NOOK_OK;
+    if (!out->volumes || !out->occluders || !volume_of_mesh)
+        result = nook_fail(NOOK_E_MEMORY, "%s: no memory for %u volumes", scene->path, scene->mesh_count);
+    for (uint32_t i = 0; volume_of_mesh && i < scene->mesh_count; i++)
+        volume_of_mesh[i] = NOOK_NONE;
+    if (result == NOOK_OK)
+        result = collect_static(scene, out);
+    if (result == NOOK_OK)
+        result = collect_bodies(scene, volume_of_mesh, out);
+    free(volume_of_mesh);
+    return result;
+}
+
+nook_result nook_volumes_bake(const nook_scene *scene, const nook_volumes_desc *desc, nook_scene_volumes *out)
+{
+    uint32_t resolution = desc->resolution ? desc->resolution : NOOK_VOLUMES_RESOLUTION_DEFAULT;
+    if (resolution > NOOK_VOXELIZE_RESOLUTION_MAX)
+        return nook_fail(NOOK_E_RANGE, "bake: resolution %u; choose 1 to %u", resolution, NOOK_VOXELIZE_RESOLUTION_MAX);
+    if (!isfinite(desc->r_max) || desc->r_max < 0.0)
+        return nook_fail(NOOK_E_RANGE, "bake: r_max %g; choose a length in metres above 0", desc->r_max);
+    nook_scene_volumes volumes = { .r_max = desc->r_max > 0.0 ? desc->r_max : nook_volumes_default_r_max(scene) };
+    nook_result result = collect(scene, &volumes);
+    if (result == NOOK_OK) {
+        choose_resolutions(&volumes, resolution);
+        result = bake_all(desc, &volumes);
+    }
+    if (result != NOOK_OK) {
+        nook_volumes_free(&volumes);
+        return result;
+    }
+    *out = volumes;
+    return NOOK_OK;
+}
+
+void nook_volumes_free(nook_scene_volumes *volumes)
+{
+    if (!volumes)
+        return;
+    for (uint32_t i = 0; i < volumes->volume_count; i++)
+        free_volume(&volumes->volumes[i]);
+    free(volumes->volumes);
+    free(volumes->occluders);
+    *volumes = (nook_scene_volumes){ 0 };
+}

@@ -1,0 +1,76 @@
+/**
+ * volumes.h - what of a scene darkens its surroundings: its bodies, each with a volume, and where they stand.
+ *
+ * A moving node with a mesh is a body; its volume is in the mesh's own space, and all nodes with that mesh share it. All other
+ * nodes with a mesh are one body, "static", in a space that is the world moved to the scene's centre (so that floats suffice).
+ *
+ * Materials     Blended ones are left out: a binary volume would make glass as dark as a wall. Masked ones are in, whole.
+ * Resolution    follows from r_max: finer than r_max / 64 cannot be told apart in the result. The static volume takes the
+ *               `resolution` asked for on its longest side. A body takes as many voxels as make them r_max / 64 in the world
+ *               (at its largest instance), but at least 16 and at most half the resolution asked for.
+ */
+#pragma once
+#include "engine/asset/scene.h"
+#include "modules/bake/cache.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define NOOK_VOLUMES_RESOLUTION_DEFAULT 256u
+#define NOOK_VOLUMES_R_MAX_DEFAULT 0.1 /**< Of the diagonal of the scene's bounds. */
+
+/** A unique volume: one mesh, or all that stands still. */
+typedef struct nook_scene_volume {
+    char *name;       /**< The mesh's name, or "static"; never NULL. */
+    float *positions; /**< xyz, metres, mesh space; packed. Finite. */
+    uint32_t vertex_count;
+    uint32_t *indices;   /**< What was voxelised, and what the reference traces. */
+    size_t index_count;  /**< A multiple of 3, at least 3. */
+    uint32_t resolution; /**< What it was baked at: voxels on the longest side. */
+    nook_bake bake;      /**< The .nkv file image, what it holds, bake time, cache hit. */
+} nook_scene_volume;
+
+/** A body in the scene. */
+typedef struct nook_scene_occluder {
+    uint32_t volume;             /**< Into volumes. */
+    uint32_t node;               /**< Into scene->nodes; NOOK_NONE for the static body. */
+    nook_matrix world_from_mesh; /**< Invertible. For the static body a translation. */
+} nook_scene_occluder;
+
+/** Owns all it points to. */
+typedef struct nook_scene_volumes {
+    nook_scene_volume *volumes;
+    uint32_t volume_count;
+    nook_scene_occluder *occluders;
+    uint32_t occluder_count;
+    double r_max; /**< Metres; the one that the resolutions follow from. */
+} nook_scene_volumes;
+
+typedef struct nook_volumes_desc {
+    uint32_t resolution;   /**< [1, 510]; 0: NOOK_VOLUMES_RESOLUTION_DEFAULT. */
+    double r_max;          /**< Metres; 0: NOOK_VOLUMES_R_MAX_DEFAULT of the diagonal. */
+    const char *cache_dir; /**< NULL: no cache. */
+    uint32_t threads;      /**< 0: all cores. */
+    /** Called after each volume; NULL for none. `index` runs from 0 to count - 1. */
+    void (*progress)(void *user, const nook_scene_volume *done, uint32_t index, uint32_t count);
+    void *user;
+} nook_volumes_desc;
+
+/** r_max when none is given: 0 for a scene with nothing to draw. */
+double nook_volumes_default_r_max(const nook_scene *scene);
+
+/** Voxels along the longest side of a body that is `longest` metres in the world. See the top of this file. */
+uint32_t nook_volumes_body_resolution(double longest, double r_max, uint32_t resolution);
+
+/**
+ * Bakes a scene, or reads it from the cache. Nodes with nothing opaque, with corners that are not finite only, or with a scale
+ * of zero have no volume; a scene may have none at all.
+ * @return NOOK_E_RANGE resolution or r_max; NOOK_E_MEMORY; *out is untouched on failure
+ */
+nook_result nook_volumes_bake(const nook_scene *scene, const nook_volumes_desc *desc, nook_scene_volumes *out);
+void nook_volumes_free(nook_scene_volumes *volumes); /**< NULL and zeroed ones are allowed. */
+
+#ifdef __cplusplus
+}
+#endif
