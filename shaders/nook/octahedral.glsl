@@ -2,6 +2,7 @@
 //
 // The stored number is v * 32767 + 32768 of 65535, so that -1, 0 and +1 are exact and the six axes survive the
 // round trip unchanged. A plain v * 0.5 + 0.5 has no zero, and every axis-aligned wall would lean by 1e-5.
+#pragma once
 
 vec2 nook_octahedral_wrap(vec2 v)
 {

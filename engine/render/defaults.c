@@ -1,0 +1,157 @@
+/* Cameras and lights for scenes that name none, and those of scenes that do. */
+#include "engine/core/log.h"
+#include "engine/render/internal.h"
+#include <math.h>
+
+static const float sky_top[3] = { 0.50f, 0.58f, 0.70f };
+static const float sky_bottom[3] = { 0.30f, 0.27f, 0.24f };
+
+nook_lights nook_lights_default(void)
+{
+    nook_lights lights = {
+        .sun = { .direction = { 0.5, -1.0, -0.65 }, .colour = { 4.6f, 4.3f, 3.8f } },
+        .exposure = 1.0f,
+    };
+    for (int i = 0; i < 3; i++) {
+        lights.ambient_top[i] = sky_top[i];
+        lights.ambient_bottom[i] = sky_bottom[i];
+    }
+    return lights;
+}
+
+static float brightest(const float colour[3])
+{
+    return fmaxf(colour[0], fmaxf(colour[1], colour[2]));
+}
+
+/** Irradiance of a surface at the place that sets the exposure. */
+static float key_of(const nook_light *light, double distance)
+{
+    float intensity = brightest(light->colour) * light->intensity;
+    return light->kind == NOOK_LIGHT_DIRECTIONAL ? intensity : intensity / (float)(distance * distance);
+}
+
+static void set_sun(const nook_light *light, nook_sun *out)
+{
+    for (int i = 0; i < 3; i++) {
+        out->direction[i] = -light->world_from_light.m[8 + i];
+        out->colour[i] = light->colour[i] * light->intensity;
+    }
+}
+
+static nook_point_light point_from(const nook_light *light)
+{
+    nook_point_light point = { .range = light->range };
+    const double *m = light->world_from_light.m;
+    double length = sqrt(m[8] * m[8] + m[9] * m[9] + m[10] * m[10]);
+    for (int i = 0; i < 3; i++) {
+        point.position[i] = m[12 + i];
+        point.colour[i] = light->colour[i] * light->intensity;
+        if (light->kind == NOOK_LIGHT_SPOT && length > 0.0)
+            point.direction[i] = -m[8 + i] / length;
+    }
+    point.cos_inner = cosf(light->inner_cone);
+    point.cos_outer = cosf(light->outer_cone);
+    return point;
+}
+
+static double quarter_of_size(const nook_scene *scene)
+{
+    double square = 0.0;
+    for (int i = 0; i < 3; i++)
+        square += pow(fmax(scene->bounds_max[i] - scene->bounds_min[i], 0.0), 2.0);
+    return square > 0.0 ? sqrt(square) / 4.0 : 1.0;
+}
+
+nook_lights nook_lights_from_scene(const nook_scene *scene)
+{
+    nook_lights lights = { .exposure = 1.0f };
+    float key = 0.0f, sun_key = 0.0f;
+    double distance = quarter_of_size(scene);
+    uint32_t left_out = 0;
+    for (uint32_t i = 0; i < scene->light_count; i++) {
+        const nook_light *light = &scene->lights[i];
+        float light_key = key_of(light, distance);
+        if (!(light_key > 0.0f) || !isfinite(light_key))
+            continue;
+        key = fmaxf(key, light_key);
+        if (light->kind != NOOK_LIGHT_DIRECTIONAL) {
+            if (lights.point_count < NOOK_MAX_POINT_LIGHTS)
+                lights.points[lights.point_count++] = point_from(light);
+            else
+                left_out++;
+            continue;
+        }
+        left_out += sun_key > 0.0f;
+        if (light_key > sun_key) {
+            set_sun(light, &lights.sun);
+            sun_key = light_key;
+        }
+    }
+    if (key == 0.0f)
+        return nook_lights_default();
+    if (left_out > 0)
+        nook_log_warning("%s: %u lights left out; a frame takes one directional and %u others", scene->path, left_out,
+                         NOOK_MAX_POINT_LIGHTS);
+    lights.exposure = 3.14159265f / key;
+    for (int i = 0; i < 3; i++) {
+        lights.ambient_top[i] = 0.5f * sky_top[i] / lights.exposure;
+        lights.ambient_bottom[i] = 0.5f * sky_bottom[i] / lights.exposure;
+    }
+    return lights;
+}
+
+/** Distance from the centre at which a camera with these half angles' tangents holds all corners of a box. */
+static double distance_to_hold(const nook_matrix *view, const double centre[3], const double half[3], double tan_x,
+                               double tan_y)
+{
+    double distance = 0.0;
+    for (int i = 0; i < 8; i++) {
+        double corner[3];
+        for (int k = 0; k < 3; k++)
+            corner[k] = centre[k] + ((i >> k & 1) ? half[k] : -half[k]);
+        nook_matrix_apply_point(view, corner, corner);
+        distance = fmax(distance, corner[2] + fmax(fabs(corner[0]) / tan_x, fabs(corner[1]) / tan_y));
+    }
+    return distance;
+}
+
+nook_camera nook_camera_frame(const double bounds_min[3], const double bounds_max[3], double aspect)
+{
+    const double towards_eye[3] = { 0.52, 0.38, 0.77 }, up[3] = { 0, 1, 0 }, fov_y = 0.7;
+    double centre[3] = { 0, 0, 0 }, half[3] = { 0.5, 0.5, 0.5 }, eye[3], size = 0.0;
+    bool empty = !(bounds_min[0] <= bounds_max[0]);
+    for (int i = 0; i < 3; i++) {
+        centre[i] = empty ? 0.0 : 0.5 * (bounds_min[i] + bounds_max[i]);
+        half[i] = empty ? 0.5 : 0.5 * (bounds_max[i] - bounds_min[i]);
+        size = fmax(size, half[i]);
+    }
+    if (size == 0.0) /* a point */
+        size = half[0] = half[1] = half[2] = 0.5;
+    for (int i = 0; i < 3; i++)
+        eye[i] = centre[i] + towards_eye[i];
+    nook_matrix view = nook_matrix_look_at(eye, centre, up);
+    for (int i = 12; i < 15; i++) /* turn only: corners relative to the centre */
+        view.m[i] = 0.0;
+    const double zero[3] = { 0, 0, 0 };
+    double distance = 1.04 * distance_to_hold(&view, zero, half, tan(0.5 * fov_y) * aspect, tan(0.5 * fov_y));
+    double length =
+        sqrt(towards_eye[0] * towards_eye[0] + towards_eye[1] * towards_eye[1] + towards_eye[2] * towards_eye[2]);
+    for (int i = 0; i < 3; i++)
+        eye[i] = centre[i] + towards_eye[i] * distance / length;
+    return (nook_camera){
+        .view_from_world = nook_matrix_look_at(eye, centre, up),
+        .fov_y_radians = fov_y,
+        .z_near = 1e-3 * distance,
+    };
+}
+
+nook_camera nook_camera_from_scene(const nook_scene_camera *camera)
+{
+    nook_camera result = { .fov_y_radians = camera->fov_y_radians, .z_near = camera->z_near };
+    const double *m = camera->world_from_view.m;
+    const double eye[3] = { m[12], m[13], m[14] }, target[3] = { eye[0] - m[8], eye[1] - m[9], eye[2] - m[10] };
+    const double up[3] = { m[4], m[5], m[6] }; /* taken anew from its axes: a scaled node must not scale the view */
+    result.view_from_world = nook_matrix_look_at(eye, target, up);
+    return result;
+}

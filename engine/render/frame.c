@@ -1,0 +1,68 @@
+/* The frame, in order. docs/rendering.md tells what each pass reads and writes. */
+#include "engine/core/log.h"
+#include "engine/render/internal.h"
+#include <math.h>
+
+static nook_result check(const nook_frame *frame)
+{
+    const nook_camera *camera = &frame->camera;
+    for (int i = 0; i < 16; i++) {
+        if (!isfinite(camera->view_from_world.m[i]))
+            return nook_fail(NOOK_E_ARG, "camera: its matrix is not finite; look from and to different points");
+    }
+    if (!(camera->z_near > 0.0) || !isfinite(camera->z_near))
+        return nook_fail(NOOK_E_ARG, "camera: z_near %g; give a number above 0", camera->z_near);
+    if (!(camera->fov_y_radians > 0.0 && camera->fov_y_radians < 3.1415))
+        return nook_fail(NOOK_E_ARG, "camera: field of view %g; give radians between 0 and pi", camera->fov_y_radians);
+    if (frame->lights->point_count > NOOK_MAX_POINT_LIGHTS)
+        return nook_fail(NOOK_E_ARG, "lights: %u points; at most %u", frame->lights->point_count,
+                         NOOK_MAX_POINT_LIGHTS);
+    if (frame->draw_count >= NOOK_NONE)
+        return nook_fail(NOOK_E_ARG, "%zu draws; at most %u", frame->draw_count, NOOK_NONE - 1);
+    for (size_t i = 0; i < frame->draw_count; i++) {
+        if (frame->draws[i].mesh >= frame->scene->scene->mesh_count)
+            return nook_fail(NOOK_E_ARG, "draw %zu: mesh %u of %u", i, frame->draws[i].mesh,
+                             frame->scene->scene->mesh_count);
+    }
+    return NOOK_OK;
+}
+
+/** Which draws the camera sees, as instances, and those of them that blend. */
+static nook_result collect_visible(nook_renderer *renderer, const nook_frame *frame)
+{
+    nook_matrix clip_from_view = nook_renderer_clip_from_view(renderer, &frame->camera);
+    batch_view view = {
+        .view_from_world = frame->camera.view_from_world,
+        .cull = true,
+        .ray_scale = { 1.0 / clip_from_view.m[0], 1.0 / clip_from_view.m[5] },
+        .z_near = frame->camera.z_near,
+    };
+    nook_result result = nook_batch(renderer->gpu, frame, &view, &renderer->visible);
+    if (result == NOOK_OK)
+        result = nook_collect_blended(renderer, frame);
+    return result;
+}
+
+nook_result nook_frame_begin(nook_renderer *renderer, const nook_frame *frame)
+{
+    nook_result result = check(frame);
+    if (result == NOOK_OK)
+        result = collect_visible(renderer, frame);
+    if (result == NOOK_OK)
+        result = nook_pass_shadow(renderer, frame);
+    if (result != NOOK_OK)
+        return result;
+    nook_uniforms_frame(renderer, frame);
+    nook_uniforms_lights(renderer, frame);
+    nook_pass_gbuffer(renderer, frame);
+    return NOOK_OK;
+}
+
+void nook_frame_finish(nook_renderer *renderer, const nook_frame *frame, nook_texture visibility, nook_view view)
+{
+    if (view == NOOK_VIEW_LIT) {
+        nook_pass_lighting(renderer, visibility);
+        nook_pass_blended(renderer, frame);
+    }
+    nook_pass_view(renderer, visibility, view);
+}

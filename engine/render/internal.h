@@ -1,0 +1,203 @@
+/** internal.h - what the passes of engine/render share among themselves. Nobody outside includes it. */
+#pragma once
+#include "engine/render/renderer.h"
+
+/** Binding numbers; shaders repeat them at their top (docs/rendering.md). */
+enum {
+    UNIT_BASE_COLOUR_IMAGE = 0,
+    UNIT_METALLIC_ROUGHNESS_IMAGE,
+    UNIT_NORMAL_IMAGE,
+    UNIT_EMISSIVE_IMAGE,
+    UNIT_OCCLUSION_IMAGE,
+    UNIT_SHADOW,
+    UNIT_BASE_COLOUR,
+    UNIT_NORMAL,
+    UNIT_GEOMETRIC_NORMAL,
+    UNIT_MATERIAL,
+    UNIT_EMISSIVE,
+    UNIT_DEPTH,
+    UNIT_VISIBILITY,
+    UNIT_LIGHT,
+    UNIFORM_FRAME = 0,
+    UNIFORM_LIGHTS = 1,
+    STORAGE_MATERIALS = 1,
+    STORAGE_TRIANGLE_NORMALS = 2,
+    LOCATION_DRAW = 0,
+    ATTRIBUTE_INSTANCE = 5,
+    VERTEX_STREAM = 0,
+    INSTANCE_STREAM = 1,
+    SHADOW_SIZE = 2048, /* texels on a side */
+};
+
+/** Per instance, as vertex attributes 5 to 11. */
+typedef struct instance_data {
+    float view_from_mesh[16];
+    float world_normal_from_mesh[3][4]; /* columns; w of the first: -1 when the transform mirrors, else 1 */
+} instance_data;
+
+/** Uniform block "Frame", std140. */
+typedef struct frame_block {
+    float clip_from_view[16];
+    float world_from_view[16];      /* rotation only: to relative space */
+    float shadow_from_relative[16]; /* to [0, 1]^3 of the shadow map */
+    float ray_scale[2];             /* view ray = (ndc * ray_scale, -1) */
+    float z_near;
+    float shadow_texel;          /* metres */
+    float depth_near, depth_far; /* metres, for the depth view */
+    float size[2];               /* pixels */
+} frame_block;
+
+/** Uniform block "Lights", std140; everything exposed, positions in relative space. */
+typedef struct lights_block {
+    float sun_direction[4]; /* towards the sun, unit; w: 1 when there is a sun */
+    float sun_colour[4];
+    float ambient_top[4];
+    float ambient_bottom[4];
+    uint32_t point_count[4]; /* x */
+    struct {
+        float position_range[4];
+        float colour_inner[4];    /* w: cosine of the inner angle */
+        float direction_outer[4]; /* w: cosine of the outer angle; direction 0: not a spot */
+    } points[NOOK_MAX_POINT_LIGHTS];
+} lights_block;
+
+/** A primitive as uploaded. */
+typedef struct render_primitive {
+    uint32_t first_index, index_count;
+    uint32_t first_vertex;
+    uint32_t first_triangle; /* into the triangle normals */
+    uint32_t material;
+    float centre[3]; /* mesh space, for sorting */
+} render_primitive;
+
+/** A material's textures; id 0 where it has none. */
+typedef struct render_material {
+    nook_texture images[5]; /* by UNIT_*_IMAGE */
+} render_material;
+
+struct nook_render_scene {
+    nook_gpu *gpu;
+    const nook_scene *scene; /* borrowed */
+    nook_buffer vertices, indices, triangle_normals, materials;
+    render_primitive *primitives;     /* as scene->primitives */
+    render_material *material_images; /* as scene->materials */
+    nook_texture *textures;           /* owned: every image that is used, once per encoding */
+    uint32_t texture_count;
+    uint64_t bytes;
+};
+
+/** Instances of one mesh, and of one handedness, that follow each other in the instance buffer. */
+typedef struct batch {
+    uint32_t mesh;
+    uint32_t first_instance, instance_count;
+    bool mirrored; /* its triangles wind the other way */
+} batch;
+
+/** One blended primitive of one instance. */
+typedef struct blended_draw {
+    double distance; /* along the view axis */
+    uint32_t primitive, instance;
+    bool mirrored;
+} blended_draw;
+
+/** A list that grows and never shrinks. */
+typedef struct grow_list {
+    void *items;
+    size_t capacity; /* bytes */
+} grow_list;
+
+/** What one pass draws: instances in a GPU buffer, and runs of them. */
+typedef struct draw_set {
+    grow_list unsorted;  /* instance_data, in the order of the draws */
+    grow_list order;     /* uint32_t: bucket of each draw, or NOOK_NONE when it is left out */
+    grow_list instances; /* instance_data */
+    grow_list batches;   /* batch */
+    grow_list counts;    /* uint32_t: draws per mesh and handedness */
+    uint32_t instance_count, batch_count;
+    double near_distance, far_distance; /* along the view axis, of the boxes of what is in it; near > far when empty */
+    nook_buffer buffer;                 /* the instances on the GPU */
+} draw_set;
+
+/** All targets that depend on the size. */
+typedef struct render_targets {
+    nook_gbuffer gbuffer;
+    nook_texture light, image;
+    nook_framebuffer gbuffer_target, light_target, blended_target, image_target;
+} render_targets;
+
+struct nook_renderer {
+    nook_gpu *gpu;
+    uint32_t width, height;
+    render_targets targets;
+    nook_texture shadow_map;
+    nook_framebuffer shadow_target;
+    nook_texture white;
+    nook_buffer frame_uniforms, light_uniforms;
+    uint32_t vertex_array;
+    uint32_t empty_vertex_array; /* for full-screen triangles */
+    nook_program shadow_program, shadow_masked_program, gbuffer_program, gbuffer_masked_program;
+    nook_program lighting_program, blended_program, view_program;
+    draw_set visible, casters;
+    grow_list blended; /* blended_draw */
+    size_t blended_count;
+    frame_block frame;
+};
+
+/** Makes room for `size` bytes; keeps what is there. @return false: no memory; the list is as it was */
+bool nook_grow(grow_list *list, size_t size);
+
+/* targets.c */
+nook_result nook_targets_create(nook_gpu *gpu, uint32_t width, uint32_t height, render_targets *out);
+void nook_targets_destroy(nook_gpu *gpu, render_targets *targets);
+
+/* batch.c */
+/** Which draws of a frame go into a set. */
+typedef struct batch_view {
+    nook_matrix view_from_world; /* rigid */
+    bool cull;                   /* leave out what lies outside the frustum */
+    double ray_scale[2];         /* of the frustum */
+    double z_near;
+} batch_view;
+/** Culls, groups by mesh and uploads. @return NOOK_E_MEMORY */
+nook_result nook_batch(nook_gpu *gpu, const nook_frame *frame, const batch_view *view, draw_set *set);
+void nook_draw_set_destroy(nook_gpu *gpu, draw_set *set);
+
+/* draw.c: state and calls that every geometry pass shares */
+typedef struct raster_state {
+    uint32_t depth_compare; /* GL_GREATER, ...; 0: no depth test */
+    bool depth_write;
+    bool cull; /* back faces of single-sided materials */
+    bool blend;
+    bool srgb; /* encode into sRGB targets */
+} raster_state;
+void nook_raster_begin(nook_gpu *gpu, nook_framebuffer framebuffer, raster_state state);
+/** Back to GL's defaults, so that the caller's own drawing and compute passes find them. */
+void nook_raster_end(nook_gpu *gpu);
+uint32_t nook_vertex_array_create(nook_gpu *gpu);
+/** Binds a scene's and a set's buffers for the draws that follow. */
+void nook_bind_geometry(nook_renderer *renderer, const nook_render_scene *scene, const draw_set *set);
+void nook_bind_material(nook_renderer *renderer, const nook_render_scene *scene, uint32_t material);
+/** Draws instances of one primitive; its material is bound. */
+void nook_draw_primitive(nook_renderer *renderer, const nook_render_scene *scene, uint32_t primitive,
+                         uint32_t first_instance, uint32_t instance_count);
+/** Draws all primitives of a set but the blended ones: `opaque` first, then `masked` for those with holes. */
+void nook_draw_solid(nook_renderer *renderer, const nook_render_scene *scene, const draw_set *set, nook_program opaque,
+                     nook_program masked, bool cull);
+void nook_draw_fullscreen(nook_renderer *renderer, nook_program program);
+
+/* one per pass; frame.c calls them in order */
+nook_result nook_pass_shadow(nook_renderer *renderer, const nook_frame *frame);
+void nook_pass_gbuffer(nook_renderer *renderer, const nook_frame *frame);
+/** Collects the blended primitives that are in view, farthest first. @return NOOK_E_MEMORY */
+nook_result nook_collect_blended(nook_renderer *renderer, const nook_frame *frame);
+void nook_pass_lighting(nook_renderer *renderer, nook_texture visibility);
+void nook_pass_blended(nook_renderer *renderer, const nook_frame *frame);
+void nook_pass_view(nook_renderer *renderer, nook_texture visibility, nook_view view);
+
+/* uniforms.c */
+/** Fills and uploads the frame block; the shadow's part was filled by the shadow pass. */
+void nook_uniforms_frame(nook_renderer *renderer, const nook_frame *frame);
+void nook_uniforms_lights(nook_renderer *renderer, const nook_frame *frame);
+/** Position of a camera in the world. */
+void nook_camera_position(const nook_camera *camera, double out[3]);
+bool nook_sun_shines(const nook_sun *sun);

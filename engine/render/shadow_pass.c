@@ -1,0 +1,105 @@
+#include "engine/render/internal.h"
+#include <math.h>
+
+/** A box in the sun's axes: x, y across, z away from the sun. */
+typedef struct sun_box {
+    double low[3], high[3];
+} sun_box;
+
+/** World from a mesh's corners to the sun's axes, around `origin`. */
+static void add_mesh(const nook_mesh *mesh, const nook_matrix *sun_from_mesh, sun_box *box)
+{
+    for (int i = 0; i < 8; i++) {
+        double p[3];
+        for (int k = 0; k < 3; k++)
+            p[k] = (i >> k & 1) ? mesh->bounds_max[k] : mesh->bounds_min[k];
+        nook_matrix_apply_point(sun_from_mesh, p, p);
+        for (int k = 0; k < 3; k++) {
+            box->low[k] = fmin(box->low[k], p[k]);
+            box->high[k] = fmax(box->high[k], p[k]);
+        }
+    }
+}
+
+/** The box of everything drawn. @return false: nothing is */
+static bool box_of_draws(const nook_frame *frame, const nook_matrix *sun_from_world, sun_box *box)
+{
+    *box = (sun_box){ { INFINITY, INFINITY, INFINITY }, { -INFINITY, -INFINITY, -INFINITY } };
+    for (size_t i = 0; i < frame->draw_count; i++) {
+        const nook_mesh *mesh = &frame->scene->scene->meshes[frame->draws[i].mesh];
+        if (!(mesh->bounds_min[0] <= mesh->bounds_max[0]))
+            continue;
+        nook_matrix sun_from_mesh = nook_matrix_multiply(sun_from_world, &frame->draws[i].world_from_local);
+        add_mesh(mesh, &sun_from_mesh, box);
+    }
+    return box->low[0] <= box->high[0] && isfinite(box->high[0] - box->low[0]);
+}
+
+/** The sun's axes with the camera as origin: z away from the sun, so that depth grows along its light. */
+static nook_matrix sun_axes(const nook_frame *frame)
+{
+    const double *d = frame->lights->sun.direction;
+    const double zero[3] = { 0, 0, 0 }, up[3] = { 0, 1, 0 }, side[3] = { 1, 0, 0 };
+    bool steep = fabs(d[1]) > 0.99 * sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    nook_matrix view = nook_matrix_look_at(zero, d, steep ? side : up); /* looks along -z */
+    nook_matrix flip = nook_matrix_scale(1.0, 1.0, -1.0);
+    double eye[3];
+    nook_camera_position(&frame->camera, eye);
+    nook_matrix to_eye = nook_matrix_translation(-eye[0], -eye[1], -eye[2]);
+    view = nook_matrix_multiply(&flip, &view);
+    return nook_matrix_multiply(&view, &to_eye);
+}
+
+/** Fits the map to a box. @return map from sun: [0, 1]^3; *texel is a texel's width in metres */
+static nook_matrix fit(const sun_box *box, double *texel)
+{
+    const double margin = 4.0; /* texels: the filter never reaches past the edge */
+    double width = fmax(box->high[0] - box->low[0], box->high[1] - box->low[1]);
+    double depth = box->high[2] - box->low[2];
+    width = fmax(width, fmax(depth * 1e-3, 1e-6)) * SHADOW_SIZE / (SHADOW_SIZE - 2.0 * margin);
+    *texel = width / SHADOW_SIZE;
+    double spare = 4.0 * *texel;
+    depth += 2.0 * spare;
+    nook_matrix scale = nook_matrix_scale(1.0 / width, 1.0 / width, 1.0 / depth);
+    nook_matrix move = nook_matrix_translation(0.5 * width - 0.5 * (box->low[0] + box->high[0]),
+                                               0.5 * width - 0.5 * (box->low[1] + box->high[1]), spare - box->low[2]);
+    return nook_matrix_multiply(&scale, &move);
+}
+
+static nook_result draw_map(nook_renderer *renderer, const nook_frame *frame, const nook_matrix *map_from_world)
+{
+    const nook_gl *gl = renderer->gpu->gl;
+    nook_matrix clip_from_map = nook_matrix_scale(2.0, 2.0, 1.0); /* x and y to [-1, 1] */
+    clip_from_map.m[12] = clip_from_map.m[13] = -1.0;
+    batch_view view = { .view_from_world = nook_matrix_multiply(&clip_from_map, map_from_world) };
+    nook_result result = nook_batch(renderer->gpu, frame, &view, &renderer->casters);
+    if (result != NOOK_OK)
+        return result;
+    nook_raster_begin(renderer->gpu, renderer->shadow_target,
+                      (raster_state){ .depth_compare = GL_LESS, .depth_write = true });
+    const float far = 1.0f;
+    gl->ClearNamedFramebufferfv(renderer->shadow_target.id, GL_DEPTH, 0, &far);
+    nook_draw_solid(renderer, frame->scene, &renderer->casters, renderer->shadow_program,
+                    renderer->shadow_masked_program, false);
+    nook_raster_end(renderer->gpu);
+    return NOOK_OK;
+}
+
+nook_result nook_pass_shadow(nook_renderer *renderer, const nook_frame *frame)
+{
+    if (!nook_sun_shines(&frame->lights->sun))
+        return NOOK_OK;
+    nook_matrix sun_from_world = sun_axes(frame);
+    sun_box box;
+    if (!box_of_draws(frame, &sun_from_world, &box))
+        return NOOK_OK;
+    double texel, eye[3];
+    nook_matrix map_from_sun = fit(&box, &texel);
+    nook_matrix map_from_world = nook_matrix_multiply(&map_from_sun, &sun_from_world);
+    nook_camera_position(&frame->camera, eye);
+    nook_matrix world_from_relative = nook_matrix_translation(eye[0], eye[1], eye[2]);
+    nook_matrix map_from_relative = nook_matrix_multiply(&map_from_world, &world_from_relative);
+    nook_matrix_to_float(&map_from_relative, renderer->frame.shadow_from_relative);
+    renderer->frame.shadow_texel = (float)texel;
+    return draw_map(renderer, frame, &map_from_world);
+}

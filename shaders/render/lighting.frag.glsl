@@ -1,0 +1,23 @@
+#version 450
+// Light of the G-buffer, or the sky where it is empty. Writes exposed radiance, RGBA16F.
+#include "render/frame.glsl"
+#include "render/shade.glsl"
+#include "render/gbuffer_read.glsl"
+
+layout(location = 0) out vec4 light;
+
+void main()
+{
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    vec3 ray = relative_ray(gl_FragCoord.xy);
+    float depth = texelFetch(depth_texture, pixel, 0).r;
+    vec3 radiance;
+    if (depth == 0.0) {
+        radiance = sky_radiance(normalize(ray));
+    } else {
+        Lit s = read_surface(pixel, ray, depth);
+        bool unlit = texelFetch(material_texture, pixel, 0).a > 0.5;
+        radiance = texelFetch(emissive_texture, pixel, 0).rgb + (unlit ? s.base_colour : shade(s));
+    }
+    light = vec4(min(radiance, vec3(65000.0)), 1.0); // the largest half float is 65504
+}

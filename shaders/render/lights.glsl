@@ -1,0 +1,33 @@
+// Lights, exposed; positions in relative space. Binding: uniform 1.
+#pragma once
+struct PointLight {
+    vec4 position_range;  // metres; range 0: unbounded
+    vec4 colour_inner;    // candela; w: cosine of the inner angle
+    vec4 direction_outer; // where a spot shines to, 0: it is none; w: cosine of the outer angle
+};
+layout(std140, binding = 1) uniform Lights {
+    vec4 sun_direction; // towards the sun, unit; w: 1 when there is one
+    vec4 sun_colour;    // lux
+    vec4 ambient_top;
+    vec4 ambient_bottom;
+    uvec4 point_count;
+    PointLight points[64];
+} lights;
+
+// Direction to a light and its irradiance on a surface that faces it (KHR_lights_punctual).
+vec3 point_light(PointLight light, vec3 relative, out vec3 to_light)
+{
+    vec3 offset = light.position_range.xyz - relative;
+    float square = max(dot(offset, offset), 1e-8);
+    to_light = offset * inversesqrt(square);
+    float range = light.position_range.w;
+    float ratio = range > 0.0 ? square / (range * range) : 0.0;
+    float window = clamp(1.0 - ratio * ratio, 0.0, 1.0);
+    float spot = 1.0;
+    if (light.direction_outer.xyz != vec3(0.0)) {
+        float width = max(light.colour_inner.w - light.direction_outer.w, 1e-3);
+        spot = clamp((dot(-to_light, light.direction_outer.xyz) - light.direction_outer.w) / width, 0.0, 1.0);
+        spot *= spot;
+    }
+    return light.colour_inner.rgb * (window * spot / square);
+}
