@@ -110,6 +110,18 @@ void nook_context_present(nook_context *context)
         context->present(context);
 }
 
+void nook_context_show(nook_context *context)
+{
+    if (context->show)
+        context->show(context);
+}
+
+void nook_context_set_title(nook_context *context, const char *title)
+{
+    if (context->set_title)
+        context->set_title(context, title);
+}
+
 const char *nook_backend_name(nook_backend backend)
 {
     return (size_t)backend < NOOK_COUNT(backend_names) ? backend_names[backend] : "unknown";

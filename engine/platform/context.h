@@ -26,7 +26,7 @@ typedef struct nook_context_desc {
     bool want_window;       /**< AUTO only: try a window first. */
     uint32_t width, height; /**< Of the window, pixels; 0 means 1280 x 720. Headless contexts ignore it. */
     const char *title;      /**< NULL: "Nook". */
-    bool hidden;            /**< A window that is not shown. */
+    bool hidden;            /**< A window that is not shown until nook_context_show. */
     bool debug;             /**< Ask for a debug context; driver errors reach the log either way. */
 } nook_context_desc;
 
@@ -110,6 +110,10 @@ nook_gl_get_proc nook_context_get_proc(const nook_context *context);
 void nook_context_poll(nook_context *context, nook_input *out_input);
 /** Shows the default framebuffer. Headless: nothing. */
 void nook_context_present(nook_context *context);
+/** Shows a window made hidden. Headless: nothing. */
+void nook_context_show(nook_context *context);
+/** What stands above the window. Headless: nothing. */
+void nook_context_set_title(nook_context *context, const char *title);
 
 /** "window", "osmesa", "egl", "auto". */
 const char *nook_backend_name(nook_backend backend);

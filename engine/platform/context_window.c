@@ -132,6 +132,16 @@ static void present(nook_context *context)
     glfwSwapBuffers(((window_context *)context)->window);
 }
 
+static void show(nook_context *context)
+{
+    glfwShowWindow(((window_context *)context)->window);
+}
+
+static void set_title(nook_context *context, const char *title)
+{
+    glfwSetWindowTitle(((window_context *)context)->window, title);
+}
+
 static void destroy(nook_context *context)
 {
     window_context *self = (window_context *)context;
@@ -182,7 +192,7 @@ nook_result nook_window_create(const nook_context_desc *desc, nook_context_reaso
         free(self);
         return result;
     }
-    self->base = (nook_context){ NOOK_BACKEND_WINDOW, glfwGetProcAddress, destroy, poll, present };
+    self->base = (nook_context){ NOOK_BACKEND_WINDOW, glfwGetProcAddress, destroy, poll, present, show, set_title };
     self->window = open_window(desc);
     if (!self->window) {
         glfwGetError(&message);
