@@ -5,13 +5,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { PATH_CAPACITY = 1024, VERSION_CAPACITY = 64, DEPTH_LIMIT = 32 };
+enum { PATH_CAPACITY = 1024, DEPTH_LIMIT = 32 };
 
 typedef struct reader {
     const char *root;
+    const char *defines;
     nook_shader_source *out;
-    char version[VERSION_CAPACITY]; /* the main file's own #version line, or empty */
-    bool out_of_memory;             /* sticky: appending went wrong */
 } reader;
 
 /* Where an include stands, for messages; `from` is NULL for the main file. */
@@ -21,37 +20,39 @@ typedef struct place {
     int depth;
 } place;
 
-static void append(reader *self, const char *bytes, size_t size)
+/* Makes room for one more line of `size` bytes, its newline and the zero behind it. */
+static bool reserve_line(nook_shader_source *out, size_t size)
 {
-    nook_shader_source *out = self->out;
-    if (self->out_of_memory)
-        return;
-    if (out->size + size + 1 > out->capacity) {
-        size_t capacity = (out->size + size + 1) * 2;
+    if (out->size + size + 2 > out->capacity) {
+        size_t capacity = (out->size + size + 2) * 2;
         char *text = realloc(out->text, capacity);
-        if (!text) {
-            self->out_of_memory = true;
-            return;
-        }
+        if (!text)
+            return false;
         out->text = text;
         out->capacity = capacity;
     }
+    if (out->line_count == out->line_capacity) {
+        uint32_t capacity = out->line_capacity ? out->line_capacity * 2 : 256;
+        nook_shader_line *lines = realloc(out->lines, capacity * sizeof *lines);
+        if (!lines)
+            return false;
+        out->lines = lines;
+        out->line_capacity = capacity;
+    }
+    return true;
+}
+
+static nook_result append_line(reader *self, const char *bytes, size_t size, uint32_t file, uint32_t line)
+{
+    nook_shader_source *out = self->out;
+    if (!reserve_line(out, size))
+        return nook_fail(NOOK_E_MEMORY, "%s: out of memory", out->files[file].path);
     memcpy(out->text + out->size, bytes, size);
     out->size += size;
+    out->text[out->size++] = '\n';
     out->text[out->size] = '\0';
-}
-
-static void append_text(reader *self, const char *text)
-{
-    append(self, text, strlen(text));
-}
-
-/* The next line of the text is `line` of that file. */
-static void append_line_mark(reader *self, uint32_t line, uint32_t file)
-{
-    char mark[48];
-    snprintf(mark, sizeof mark, "#line %u %u\n", line, file);
-    append_text(self, mark);
+    out->lines[out->line_count++] = (nook_shader_line){ file, line };
+    return NOOK_OK;
 }
 
 static bool find_file(const nook_shader_source *source, const char *path, uint32_t *out_index)
@@ -145,34 +146,58 @@ static nook_result read_include(reader *self, const char *rest, const char *end,
     return read_file(self, name, at);
 }
 
-/* Copies a file's lines. The directives that are ours leave an empty line, so that the driver counts as the file does. */
+static const char *line_end(const char *line, const char *text_end)
+{
+    const char *newline = memchr(line, '\n', (size_t)(text_end - line));
+    return newline ? newline : text_end;
+}
+
+/* Copies a file's lines. The directives that are ours are left out. */
 static nook_result read_lines(reader *self, uint32_t index, const char *text, const char *text_end, int depth)
 {
     bool in_comment = false;
     uint32_t number = 1;
-    for (const char *line = text; line < text_end; number++) {
-        const char *newline = memchr(line, '\n', (size_t)(text_end - line));
-        const char *end = newline ? newline : text_end;
+    nook_result result = NOOK_OK;
+    for (const char *line = text; line < text_end && result == NOOK_OK; number++) {
+        const char *end = line_end(line, text_end);
         const char *code = first_code(line, end, &in_comment), *rest;
-        if ((rest = directive(code, end, "include")) != NULL) {
-            place here = { self->out->files[index].path, number, depth + 1 };
-            nook_result result = read_include(self, rest, end, here);
-            if (result != NOOK_OK)
-                return result;
-            append_line_mark(self, number + 1, index);
-        } else if ((rest = directive(code, end, "pragma")) != NULL && end - rest >= 4 && memcmp(rest, "once", 4) == 0) {
+        if ((rest = directive(code, end, "include")) != NULL)
+            result = read_include(self, rest, end, (place){ self->out->files[index].path, number, depth + 1 });
+        else if ((rest = directive(code, end, "pragma")) != NULL && end - rest >= 4 && memcmp(rest, "once", 4) == 0)
             self->out->files[index].once = true;
-            append_text(self, "\n");
-        } else if (depth == 0 && directive(code, end, "version") != NULL) {
-            snprintf(self->version, sizeof self->version, "%.*s", (int)(end - code), code);
-            append_text(self, "\n");
-        } else {
-            append(self, line, (size_t)(end - line));
-            append_text(self, "\n");
-        }
-        line = end + 1;
+        else if (depth > 0 || !directive(code, end, "version"))
+            result = append_line(self, line, (size_t)(end - line), index, number);
+        line = end < text_end ? end + 1 : end;
     }
-    return NOOK_OK;
+    return result;
+}
+
+/* #version must come first: the file's own wherever it stands, else ours; then the defines. */
+static nook_result read_header(reader *self, uint32_t index, const char *text, const char *text_end)
+{
+    static const char ours[] = "#version 450 core";
+    const char *version = ours, *version_end = ours + sizeof ours - 1;
+    bool in_comment = false;
+    uint32_t version_line = 1, number = 1;
+    for (const char *line = text; line < text_end; number++) {
+        const char *end = line_end(line, text_end), *code = first_code(line, end, &in_comment);
+        if (directive(code, end, "version")) {
+            version = code;
+            version_end = end;
+            version_line = number;
+            break;
+        }
+        line = end < text_end ? end + 1 : end;
+    }
+    nook_result result = append_line(self, version, (size_t)(version_end - version), index, version_line);
+    const char *defines_end = self->defines + strlen(self->defines);
+    number = 1;
+    for (const char *line = self->defines; line < defines_end && result == NOOK_OK; number++) {
+        const char *end = line_end(line, defines_end);
+        result = append_line(self, line, (size_t)(end - line), 0, number);
+        line = end < defines_end ? end + 1 : end;
+    }
+    return result;
 }
 
 /* Finds the file a name means. @return false when there is none */
@@ -207,47 +232,32 @@ static nook_result read_file(reader *self, const char *name, place at)
     nook_result result = nook_file_read(full, &file);
     if (result != NOOK_OK)
         return result;
+    if (memchr(file.bytes, '\0', file.size)) {
+        nook_file_free(&file);
+        return nook_fail(NOOK_E_FORMAT, "%s: not a text file, it holds zero bytes", relative);
+    }
     self->out->files[index].open = true;
-    append_line_mark(self, 1, index);
-    const char *text = (const char *)file.bytes;
-    result = read_lines(self, index, text, text + file.size, at.depth);
+    const char *text = (const char *)file.bytes, *text_end = text + file.size;
+    if (at.depth == 0)
+        result = read_header(self, index, text, text_end);
+    if (result == NOOK_OK)
+        result = read_lines(self, index, text, text_end, at.depth);
     self->out->files[index].open = false;
     nook_file_free(&file);
     return result;
-}
-
-/* #version must come first, but is known only after the files were read: puts it and the defines before the text. */
-static void put_header(reader *self, const char *defines)
-{
-    nook_shader_source *out = self->out;
-    char *body = out->text;
-    size_t body_size = out->size;
-    out->text = NULL;
-    out->size = out->capacity = 0;
-    append_text(self, self->version[0] ? self->version : "#version 450 core");
-    append_text(self, "\n#line 1 0\n");
-    append_text(self, defines);
-    append_text(self, "\n");
-    append(self, body ? body : "", body_size);
-    free(body);
 }
 
 nook_result nook_shader_source_read(const char *root, const char *path, const char *defines,
                                     nook_shader_source *out_source)
 {
     nook_shader_source source = { 0 };
-    reader self = { .root = root, .out = &source };
+    reader self = { .root = root, .defines = defines, .out = &source };
     uint32_t defines_index = 0;
     nook_result result = NOOK_OK;
     if (!add_file(&source, "(defines)", &defines_index))
         result = nook_fail(NOOK_E_MEMORY, "%s: out of memory", path);
     if (result == NOOK_OK)
         result = read_file(&self, path, (place){ NULL, 0, 0 });
-    if (result == NOOK_OK) {
-        put_header(&self, defines);
-        if (self.out_of_memory)
-            result = nook_fail(NOOK_E_MEMORY, "%s: out of memory", path);
-    }
     if (result != NOOK_OK) {
         nook_shader_source_free(&source);
         return result;
@@ -261,6 +271,7 @@ void nook_shader_source_free(nook_shader_source *source)
     for (uint32_t i = 0; i < source->file_count; i++)
         free(source->files[i].path);
     free(source->files);
+    free(source->lines);
     free(source->text);
     *source = (nook_shader_source){ 0 };
 }
@@ -279,8 +290,10 @@ void nook_shader_source_translate(const nook_shader_source *source, const char *
         severity = "error: ";
         known = true;
     }
-    if (known && file < source->file_count)
-        snprintf(out, capacity, "%s:%u: %s%s", source->files[file].path, number, severity, text + rest);
-    else
+    if (known && file == 0 && number >= 1 && number <= source->line_count) {
+        const nook_shader_line *from = &source->lines[number - 1];
+        snprintf(out, capacity, "%s:%u: %s%s", source->files[from->file].path, from->line, severity, text + rest);
+    } else {
         snprintf(out, capacity, "%s", text);
+    }
 }

@@ -13,11 +13,23 @@ typedef struct nook_shader_file {
     bool open;  /**< Being read now: an include of it goes in a circle. */
 } nook_shader_file;
 
-/** Zeroed is empty. Release with nook_shader_source_free. */
+/** Where a line of the joined text comes from. */
+typedef struct nook_shader_line {
+    uint32_t file; /**< Into files. */
+    uint32_t line; /**< From 1. */
+} nook_shader_line;
+
+/**
+ * Zeroed is empty. Release with nook_shader_source_free.
+ * The text holds no #line: the driver counts its lines and `lines` tells what they are. Mesa drops the file number of #line
+ * for every expression of more than one token, so that messages would name the wrong file.
+ */
 typedef struct nook_shader_source {
     char *text; /**< Owned, ends in a zero byte: #version, defines, then the file with its includes in place. */
     size_t size, capacity;
-    nook_shader_file *files; /**< Owned; the index is the "source string number" of #line. 0 is the defines. */
+    nook_shader_line *lines; /**< Owned; one for each line of the text. */
+    uint32_t line_count, line_capacity;
+    nook_shader_file *files; /**< Owned; 0 is the defines. */
     uint32_t file_count, file_capacity;
 } nook_shader_source;
 

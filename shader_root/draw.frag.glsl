@@ -1,0 +1,3 @@
+in vec4 uv;
+out vec4 colour;
+void main() { colour = uv; }

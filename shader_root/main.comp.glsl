@@ -1,0 +1,2 @@
+layout(local_size_x = 8) in;
+void main() { }

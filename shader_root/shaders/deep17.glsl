@@ -1,0 +1,1 @@
+#include "deep18.glsl"

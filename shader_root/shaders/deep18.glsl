@@ -1,0 +1,1 @@
+#include "deep19.glsl"

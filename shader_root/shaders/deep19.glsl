@@ -1,0 +1,1 @@
+#include "deep20.glsl"

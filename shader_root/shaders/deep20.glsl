@@ -1,0 +1,1 @@
+#include "deep21.glsl"

@@ -1,0 +1,1 @@
+#include "deep23.glsl"

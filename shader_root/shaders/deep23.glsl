@@ -1,0 +1,1 @@
+#include "deep24.glsl"

@@ -1,0 +1,1 @@
+#include "deep25.glsl"

@@ -1,0 +1,1 @@
+#include "deep26.glsl"

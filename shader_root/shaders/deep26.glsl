@@ -1,0 +1,1 @@
+#include "deep27.glsl"

@@ -1,0 +1,1 @@
+#include "deep28.glsl"

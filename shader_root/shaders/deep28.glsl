@@ -1,0 +1,1 @@
+#include "deep29.glsl"

@@ -1,0 +1,1 @@
+#include "deep30.glsl"

@@ -1,0 +1,1 @@
+#include "deep32.glsl"

@@ -1,0 +1,1 @@
+#include "deep33.glsl"

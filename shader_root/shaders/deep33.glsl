@@ -1,0 +1,1 @@
+#include "deep34.glsl"

@@ -1,0 +1,1 @@
+#include "deep35.glsl"

@@ -1,0 +1,1 @@
+#include "deep36.glsl"

@@ -1,0 +1,1 @@
+#include "deep38.glsl"

@@ -1,0 +1,1 @@
+#include "deep39.glsl"

@@ -1,0 +1,1 @@
+#include "deep40.glsl"

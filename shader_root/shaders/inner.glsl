@@ -1,0 +1,2 @@
+
+#include "nook/nothing.glsl"

@@ -1,0 +1,3 @@
+float good() { return 1.0; }
+
+

@@ -1,0 +1,6 @@
+float a;
+float b;
+float c;
+float d;
+float e;
+float f;

@@ -1,0 +1,3 @@
+#pragma once
+#include "other.glsl"
+uint once() { return 5u; }

@@ -1,0 +1,3 @@
+#pragma once
+#include "once.glsl"
+uint other() { return 6u; }
