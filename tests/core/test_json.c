@@ -1,16 +1,15 @@
 #include "engine/core/file.h"
 #include "engine/core/json.h"
+#include "tests/support/abort.h"
 #include <float.h>
 #include <math.h>
 #include <setjmp.h>
-#include <signal.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cmocka.h>
@@ -230,28 +229,14 @@ static void misuse_key_without_value(void)
     nook_json_end_object(&json);
 }
 
-static void assert_aborts(void (*misuse)(void))
-{
-    pid_t child = fork();
-    if (child == 0) {
-        signal(SIGABRT, SIG_DFL); /* cmocka's handler would report the death as a failed test */
-        fclose(stderr);
-        misuse();
-        _exit(0);
-    }
-    int status = 0;
-    assert_int_equal(waitpid(child, &status, 0), child);
-    assert_true(WIFSIGNALED(status) && WTERMSIG(status) == SIGABRT);
-}
-
 static void test_json_asserts_on_misuse(void **state)
 {
     (void)state;
-    assert_aborts(misuse_value_without_key);
-    assert_aborts(misuse_wrong_end);
-    assert_aborts(misuse_two_roots);
-    assert_aborts(misuse_finish_while_open);
-    assert_aborts(misuse_key_without_value);
+    assert_true(nook_aborts(misuse_value_without_key));
+    assert_true(nook_aborts(misuse_wrong_end));
+    assert_true(nook_aborts(misuse_two_roots));
+    assert_true(nook_aborts(misuse_finish_while_open));
+    assert_true(nook_aborts(misuse_key_without_value));
 }
 
 int main(void)
