@@ -20,26 +20,12 @@ void nook_log_set_sink(nook_log_sink sink, void *user)
     log_state.user = sink ? user : NULL;
 }
 
-static void say(const char *file, int line, nook_log_level level, const char *format, va_list arguments)
-{
-    char text[LINE_CAPACITY];
-    vsnprintf(text, sizeof text, format, arguments);
-    log_state.sink(log_state.user, level, file, line, text);
-}
-
 void nook_log_at(const char *file, int line, nook_log_level level, const char *format, ...)
 {
+    char text[LINE_CAPACITY];
     va_list arguments;
     va_start(arguments, format);
-    say(file, line, level, format, arguments);
+    vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-}
-
-nook_result nook_fail_at(const char *file, int line, nook_result code, const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    say(file, line, NOOK_LOG_ERROR, format, arguments);
-    va_end(arguments);
-    return code;
+    log_state.sink(log_state.user, level, file, line, text);
 }

@@ -32,9 +32,15 @@ void nook_log_at(const char *file, int line, nook_log_level level, const char *f
 #define nook_log_info(...) nook_log_at(__FILE__, __LINE__, NOOK_LOG_INFO, __VA_ARGS__)
 #define nook_log_warning(...) nook_log_at(__FILE__, __LINE__, NOOK_LOG_WARNING, __VA_ARGS__)
 
-/** Logs an error and gives `code` back, so that one line reports and returns. */
-#define nook_fail(code, ...) nook_fail_at(__FILE__, __LINE__, (code), __VA_ARGS__)
-nook_result nook_fail_at(const char *file, int line, nook_result code, const char *format, ...) NOOK_PRINTF(4, 5);
+/**
+ * Logs an error and gives `code` back, so that one line reports and returns. A macro around an inline function so that
+ * compilers and analysers see which code comes back: after `if (result != NOOK_OK) return result;` outputs are set.
+ */
+#define nook_fail(code, ...) (nook_log_at(__FILE__, __LINE__, NOOK_LOG_ERROR, __VA_ARGS__), nook_fail_with((code)))
+static inline nook_result nook_fail_with(nook_result code)
+{
+    return code;
+}
 
 #ifdef __cplusplus
 }
