@@ -7,6 +7,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 typedef struct nook_shader_file {
     char *path; /**< Owned; relative to the source root, as messages name it. */
     bool once;  /**< `#pragma once` was read in it. */
@@ -49,3 +53,7 @@ void nook_shader_source_free(nook_shader_source *source);
  */
 void nook_shader_source_translate(const nook_shader_source *source, const char *line, size_t length, char *out,
                                   size_t capacity);
+
+#ifdef __cplusplus
+}
+#endif

@@ -3,6 +3,7 @@
 #include "engine/platform/context_internal.h"
 #include <GL/glcorearb.h>
 #include <GL/osmesa.h>
+#include <assert.h>
 #include <dlfcn.h>
 #include <stdlib.h>
 
@@ -70,6 +71,7 @@ static nook_result start(osmesa_context *self, nook_context_reason *out_reason)
         5,
         0,
     };
+    assert(self->create && self->make_current); /* load has found them */
     self->handle = self->create(attributes, NULL);
     if (!self->handle)
         return nook_context_refuse(out_reason, NOOK_E_DEVICE,

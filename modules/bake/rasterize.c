@@ -174,7 +174,7 @@ void nook_rasterize_narrow(const nook_snapped_triangle *triangle, const int32_t 
                            const nook_voxel_grid *rasterized, nook_voxel_grid *out_extra)
 {
     int from = 0;
-    double longest = -1.0;
+    double longest = 0.0;
     for (int i = 0; i < 3; i++) {
         double squared = distance_squared(triangle->corner[i], triangle->corner[(i + 1) % 3]);
         if (squared > longest) {

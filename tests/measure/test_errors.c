@@ -130,7 +130,7 @@ static void test_percentile_is_that_of_a_full_sort(void **state)
     (void)state;
     unsigned seed = 20100712u;
     for (size_t n = 1; n <= 300; n += 13) {
-        float visibility[300], zero[300] = { 0 }, sorted[300];
+        float visibility[300], zero[300] = { 0 }, sorted[300] = { 0 };
         for (size_t i = 0; i < n; i++) {
             seed = seed * 1664525u + 1013904223u;
             visibility[i] = ldexpf((float)(seed >> 8), -(int)(seed % 40)) * (seed & 64 ? 1.0f : -1.0f);
