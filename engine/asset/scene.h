@@ -67,8 +67,13 @@ typedef struct nook_node {
     uint32_t mesh;   /**< NOOK_NONE for none. */
     uint32_t camera, light;
     uint32_t skin;                /**< NOOK_NONE; a skinned mesh is drawn unposed for now. */
-    nook_matrix world_from_local; /**< Composed in double. */
-    bool moving;                  /**< A rigid body: extras {"nook_body": true} on it or above it, or its mesh is drawn by several nodes. */
+    /** Composed in double. A skinned mesh's node has the identity: glTF places such a mesh by its joints alone. */
+    nook_matrix world_from_local;
+    /**
+     * A rigid body: the nearest extras {"nook_body": true or false}, on it or above it, decides; without one, whether
+     * its mesh is drawn by several nodes.
+     */
+    bool moving;
 } nook_node;
 
 typedef struct nook_scene_camera {
@@ -104,7 +109,8 @@ typedef struct nook_scene {
     nook_image *images;
     uint32_t image_count;
     nook_node *nodes;
-    uint32_t node_count; /**< Those reachable from the default scene. */
+    uint32_t node_count;      /**< Those reachable from the default scene. */
+    uint32_t file_node_count; /**< All in the file, those of other scenes included. */
     nook_scene_camera *cameras;
     uint32_t camera_count; /**< One per node that has a camera. */
     nook_light *lights;

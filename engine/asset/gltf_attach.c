@@ -1,0 +1,97 @@
+/* Cameras and lights: they sit on nodes, and only the place and the direction of those matter to them. */
+#include "engine/asset/gltf.h"
+#include "engine/asset/scene_build.h"
+#include <math.h>
+#include <string.h>
+
+static const double pi = 3.14159265358979323846;
+
+static bool normalize(double v[3])
+{
+    double length = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    if (!(length > 1e-30) || !isfinite(length))
+        return false;
+    for (int k = 0; k < 3; k++)
+        v[k] /= length;
+    return true;
+}
+
+/* The same place and view direction without scale, shear and mirroring; axis-aligned when there is no direction. */
+static nook_matrix without_scale(const nook_matrix *m)
+{
+    nook_matrix out = nook_matrix_translation(m->m[12], m->m[13], m->m[14]);
+    double z[3] = { m->m[8], m->m[9], m->m[10] }, y[3] = { m->m[4], m->m[5], m->m[6] };
+    if (!normalize(z))
+        return out;
+    double along = y[0] * z[0] + y[1] * z[1] + y[2] * z[2];
+    for (int k = 0; k < 3; k++)
+        y[k] -= along * z[k];
+    if (!normalize(y))
+        return out;
+    for (int k = 0; k < 3; k++) {
+        out.m[k] = y[(k + 1) % 3] * z[(k + 2) % 3] - y[(k + 2) % 3] * z[(k + 1) % 3];
+        out.m[4 + k] = y[k];
+        out.m[8 + k] = z[k];
+    }
+    return out;
+}
+
+static nook_result attach_camera(nook_gltf *gltf, const nook_gltf_node *from, const nook_matrix *world, nook_node *to)
+{
+    nook_scene *scene = gltf->scene;
+    const nook_gltf_camera *camera = &gltf->model->cameras[from->camera];
+    bool usable = camera->fov_y_radians > 0.0 && camera->fov_y_radians < pi && camera->z_near > 0.0;
+    if (camera->perspective && !usable)
+        nook_scene_warn(scene,
+                        "%s: cameras[%u] has a field of view of %g and a near plane at %g; 60 degrees and 0.01 m"
+                        " are used",
+                        gltf->path, from->camera, camera->fov_y_radians, camera->z_near);
+    nook_scene_camera *out = &scene->cameras[scene->camera_count];
+    *out = (nook_scene_camera){ .fov_y_radians = usable ? camera->fov_y_radians : pi / 3.0,
+                                .z_near = usable ? camera->z_near : 0.01,
+                                .perspective = camera->perspective,
+                                .world_from_view = without_scale(world) };
+    out->name = nook_scene_copy_string(camera->name[0] ? camera->name : from->name);
+    if (!out->name)
+        return NOOK_E_MEMORY;
+    to->camera = scene->camera_count++;
+    return NOOK_OK;
+}
+
+static float positive(double x)
+{
+    return x > 0.0 ? (float)x : 0.0f;
+}
+
+static void attach_light(nook_gltf *gltf, const nook_gltf_node *from, const nook_matrix *world, nook_node *to)
+{
+    static const char *const types[] = { "directional", "point", "spot" };
+    nook_scene *scene = gltf->scene;
+    const nook_gltf_light *light = &gltf->model->lights[from->light];
+    size_t kind = 0;
+    while (kind < NOOK_COUNT(types) && strcmp(light->type, types[kind]) != 0)
+        kind++;
+    if (kind == NOOK_COUNT(types)) {
+        nook_scene_warn(scene, "%s: a light of the unknown type '%.20s' is left out", gltf->path, light->type);
+        return;
+    }
+    double outer = fmin(positive(light->outer_cone), pi / 2.0);
+    nook_light *out = &scene->lights[scene->light_count];
+    *out = (nook_light){ .kind = (nook_light_kind)kind,
+                         .intensity = positive(light->intensity),
+                         .range = positive(light->range),
+                         .inner_cone = (float)fmin(positive(light->inner_cone), outer),
+                         .outer_cone = (float)outer,
+                         .world_from_light = without_scale(world) };
+    for (int k = 0; k < 3; k++)
+        out->colour[k] = positive(light->colour[k]);
+    to->light = scene->light_count++;
+}
+
+nook_result nook_gltf_attach(nook_gltf *gltf, const nook_gltf_node *from, const nook_matrix *world_from_local,
+                             nook_node *to)
+{
+    if (from->light != NOOK_GLTF_NONE)
+        attach_light(gltf, from, world_from_local, to);
+    return from->camera == NOOK_GLTF_NONE ? NOOK_OK : attach_camera(gltf, from, world_from_local, to);
+}

@@ -1,0 +1,58 @@
+/* nook_scene_load: the order of the stages. */
+#include "engine/asset/gltf.h"
+#include "engine/asset/scene_build.h"
+#include <stdlib.h>
+
+static void count_what_is_not_played(nook_gltf *gltf)
+{
+    nook_scene *scene = gltf->scene;
+    scene->skin_count = gltf->model->skin_count;
+    scene->animation_count = gltf->model->animation_count;
+    if (scene->animation_count)
+        nook_scene_warn(scene, "%s: %u animations are not played yet", gltf->path, scene->animation_count);
+    if (scene->morph_count)
+        nook_scene_warn(scene, "%s: %u primitives have morph targets, which are not played yet", gltf->path,
+                        scene->morph_count);
+}
+
+/* Gives back the room that growing left over: half of it in the worst case. */
+static void trim(nook_scene *scene)
+{
+    void *vertices = realloc(scene->vertices, (scene->vertex_count ? scene->vertex_count : 1) * sizeof(nook_vertex));
+    void *indices = realloc(scene->indices, (scene->index_count ? scene->index_count : 1) * sizeof(uint32_t));
+    scene->vertices = vertices ? vertices : scene->vertices;
+    scene->indices = indices ? indices : scene->indices;
+}
+
+static nook_result load(nook_gltf *gltf, const nook_scene_options *options)
+{
+    nook_result result;
+    if ((result = nook_gltf_open_source(gltf)) || (result = nook_gltf_check_document(gltf)) ||
+        (result = nook_gltf_read_buffers(gltf)) || (result = nook_gltf_parse_model(gltf)) ||
+        (result = nook_gltf_check_accessors(gltf)) ||
+        (result = nook_gltf_read_images(gltf, !(options && options->skip_images))) ||
+        (result = nook_gltf_convert_materials(gltf)) || (result = nook_gltf_convert_meshes(gltf)) ||
+        (result = nook_gltf_convert_nodes(gltf)))
+        return result;
+    count_what_is_not_played(gltf);
+    trim(gltf->scene);
+    return nook_scene_finish(gltf->scene);
+}
+
+nook_result nook_scene_load(const char *path, const nook_scene_options *options, nook_scene **out_scene)
+{
+    *out_scene = NULL;
+    nook_scene *scene = nook_scene_allocate(path, 1, sizeof *scene);
+    if (!scene)
+        return NOOK_E_MEMORY;
+    nook_gltf gltf = { .path = path, .scene = scene };
+    scene->path = nook_scene_copy_string(path);
+    nook_result result = scene->path ? load(&gltf, options) : NOOK_E_MEMORY;
+    nook_gltf_close(&gltf);
+    if (result != NOOK_OK) {
+        nook_scene_destroy(scene);
+        return result;
+    }
+    *out_scene = scene;
+    return NOOK_OK;
+}

@@ -1,0 +1,321 @@
+#include "engine/asset/gltf_shim.h"
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace
+{
+
+/** Owns what the plain arrays point into. */
+struct holder {
+    nook_gltf_model plain{};
+    tinygltf::Model source;
+    std::vector<nook_gltf_view> views;
+    std::vector<nook_gltf_accessor> accessors;
+    std::vector<nook_gltf_primitive> primitives;
+    std::vector<nook_gltf_mesh> meshes;
+    std::vector<nook_gltf_material> materials;
+    std::vector<nook_gltf_node> nodes;
+    std::vector<nook_gltf_scene> scenes;
+    std::vector<nook_gltf_camera> cameras;
+    std::vector<nook_gltf_light> lights;
+    std::vector<uint32_t> texture_images;
+    std::vector<uint32_t> children;
+};
+
+uint32_t reference(int index)
+{
+    return index < 0 ? NOOK_GLTF_NONE : static_cast<uint32_t>(index);
+}
+
+void copy_numbers(const std::vector<double> &from, double *to, size_t count)
+{
+    if (from.size() >= count)
+        std::copy_n(from.begin(), count, to);
+}
+
+/** Number `key` of an extension object, or `fallback`. */
+double number_of(const tinygltf::Value &object, const char *key, double fallback)
+{
+    if (!object.IsObject() || !object.Has(key) || !object.Get(key).IsNumber())
+        return fallback;
+    return object.Get(key).GetNumberAsDouble();
+}
+
+const tinygltf::Value *extension_of(const tinygltf::ExtensionMap &extensions, const char *name)
+{
+    auto found = extensions.find(name);
+    return found != extensions.end() && found->second.IsObject() ? &found->second : nullptr;
+}
+
+uint32_t attribute_of(const tinygltf::Primitive &primitive, const char *name)
+{
+    auto found = primitive.attributes.find(name);
+    return found == primitive.attributes.end() ? NOOK_GLTF_NONE : reference(found->second);
+}
+
+nook_gltf_accessor plain_accessor(const tinygltf::Accessor &from)
+{
+    nook_gltf_accessor to{};
+    to.view = reference(from.bufferView);
+    to.offset = from.byteOffset;
+    to.count = static_cast<uint32_t>(from.count);
+    to.component_type = from.componentType;
+    to.normalized = from.normalized;
+    bool scalar_or_vector =
+        from.type == TINYGLTF_TYPE_SCALAR || (from.type >= TINYGLTF_TYPE_VEC2 && from.type <= TINYGLTF_TYPE_VEC4);
+    to.components = scalar_or_vector
+                        ? static_cast<uint32_t>(tinygltf::GetNumComponentsInType(static_cast<uint32_t>(from.type)))
+                        : 0;
+    to.has_bounds = to.components && from.minValues.size() == to.components && from.maxValues.size() == to.components;
+    if (to.has_bounds) {
+        copy_numbers(from.minValues, to.min, to.components);
+        copy_numbers(from.maxValues, to.max, to.components);
+    }
+    if (!from.sparse.isSparse)
+        return to;
+    to.sparse_count = static_cast<uint32_t>(from.sparse.count);
+    to.sparse_index_view = reference(from.sparse.indices.bufferView);
+    to.sparse_index_offset = static_cast<uint64_t>(from.sparse.indices.byteOffset);
+    to.sparse_index_type = from.sparse.indices.componentType;
+    to.sparse_value_view = reference(from.sparse.values.bufferView);
+    to.sparse_value_offset = static_cast<uint64_t>(from.sparse.values.byteOffset);
+    return to;
+}
+
+nook_gltf_primitive plain_primitive(const tinygltf::Primitive &from)
+{
+    nook_gltf_primitive to{};
+    to.position = attribute_of(from, "POSITION");
+    to.normal = attribute_of(from, "NORMAL");
+    to.tangent = attribute_of(from, "TANGENT");
+    to.colour = attribute_of(from, "COLOR_0");
+    to.joints = attribute_of(from, "JOINTS_0");
+    to.texcoord[0] = attribute_of(from, "TEXCOORD_0");
+    to.texcoord[1] = attribute_of(from, "TEXCOORD_1");
+    to.indices = reference(from.indices);
+    to.material = reference(from.material);
+    to.mode = from.mode < 0 ? 4u : static_cast<uint32_t>(from.mode);
+    to.target_count = static_cast<uint32_t>(from.targets.size());
+    return to;
+}
+
+template <class Info> nook_gltf_slot plain_slot(const Info &from)
+{
+    nook_gltf_slot to{};
+    to.texture = reference(from.index);
+    to.texcoord = reference(from.texCoord);
+    to.scale[0] = to.scale[1] = 1.0;
+    const tinygltf::Value *transform = extension_of(from.extensions, "KHR_texture_transform");
+    if (!transform)
+        return to;
+    for (int i = 0; i < 2; i++) {
+        if (transform->Has("offset") && transform->Get("offset").ArrayLen() == 2)
+            to.offset[i] = transform->Get("offset").Get(i).GetNumberAsDouble();
+        if (transform->Has("scale") && transform->Get("scale").ArrayLen() == 2)
+            to.scale[i] = transform->Get("scale").Get(i).GetNumberAsDouble();
+    }
+    to.rotation = number_of(*transform, "rotation", 0.0);
+    to.texcoord = static_cast<uint32_t>(number_of(*transform, "texCoord", to.texcoord));
+    return to;
+}
+
+nook_gltf_material plain_material(const tinygltf::Material &from)
+{
+    nook_gltf_material to{};
+    const tinygltf::PbrMetallicRoughness &pbr = from.pbrMetallicRoughness;
+    to.name = from.name.c_str();
+    std::fill_n(to.base_colour, 4, 1.0);
+    copy_numbers(pbr.baseColorFactor, to.base_colour, 4);
+    copy_numbers(from.emissiveFactor, to.emissive, 3);
+    to.emissive_strength = 1.0;
+    if (const tinygltf::Value *emissive = extension_of(from.extensions, "KHR_materials_emissive_strength"))
+        to.emissive_strength = number_of(*emissive, "emissiveStrength", 1.0);
+    to.metallic = pbr.metallicFactor;
+    to.roughness = pbr.roughnessFactor;
+    to.normal_scale = from.normalTexture.scale;
+    to.occlusion_strength = from.occlusionTexture.strength;
+    to.alpha_cutoff = from.alphaCutoff;
+    to.alpha_mode = from.alphaMode.c_str();
+    to.double_sided = from.doubleSided;
+    to.unlit = from.extensions.count("KHR_materials_unlit") != 0;
+    to.base_colour_slot = plain_slot(pbr.baseColorTexture);
+    to.metallic_roughness_slot = plain_slot(pbr.metallicRoughnessTexture);
+    to.normal_slot = plain_slot(from.normalTexture);
+    to.occlusion_slot = plain_slot(from.occlusionTexture);
+    to.emissive_slot = plain_slot(from.emissiveTexture);
+    return to;
+}
+
+void append_children(holder &h, const std::vector<int> &nodes, uint32_t &first, uint32_t &count)
+{
+    first = static_cast<uint32_t>(h.children.size());
+    count = static_cast<uint32_t>(nodes.size());
+    for (int node : nodes)
+        h.children.push_back(reference(node));
+}
+
+nook_gltf_node plain_node(holder &h, const tinygltf::Node &from)
+{
+    nook_gltf_node to{};
+    to.name = from.name.c_str();
+    to.mesh = reference(from.mesh);
+    to.skin = reference(from.skin);
+    to.camera = reference(from.camera);
+    to.light = NOOK_GLTF_NONE;
+    if (const tinygltf::Value *light = extension_of(from.extensions, "KHR_lights_punctual"))
+        to.light = reference(static_cast<int>(number_of(*light, "light", -1)));
+    append_children(h, from.children, to.first_child, to.child_count);
+    to.has_matrix = from.matrix.size() == 16;
+    copy_numbers(from.matrix, to.matrix, 16);
+    copy_numbers(from.translation, to.translation, 3);
+    to.rotation[3] = 1.0;
+    copy_numbers(from.rotation, to.rotation, 4);
+    std::fill_n(to.scale, 3, 1.0);
+    copy_numbers(from.scale, to.scale, 3);
+    bool given = from.extras.IsObject() && from.extras.Has("nook_body") && from.extras.Get("nook_body").IsBool();
+    to.body = given ? from.extras.Get("nook_body").Get<bool>() : -1;
+    return to;
+}
+
+nook_gltf_light plain_light(const tinygltf::Light &from)
+{
+    nook_gltf_light to{};
+    to.type = from.type.c_str();
+    std::fill_n(to.colour, 3, 1.0);
+    copy_numbers(from.color, to.colour, 3);
+    to.intensity = from.intensity;
+    to.range = from.range;
+    to.inner_cone = from.spot.innerConeAngle;
+    to.outer_cone = from.spot.outerConeAngle;
+    return to;
+}
+
+void convert_geometry(holder &h)
+{
+    for (const tinygltf::BufferView &from : h.source.bufferViews)
+        h.views.push_back(
+            { reference(from.buffer), from.byteOffset, from.byteLength, static_cast<uint32_t>(from.byteStride) });
+    for (const tinygltf::Accessor &from : h.source.accessors)
+        h.accessors.push_back(plain_accessor(from));
+    for (const tinygltf::Mesh &from : h.source.meshes) {
+        h.meshes.push_back({ from.name.c_str(), static_cast<uint32_t>(h.primitives.size()),
+                             static_cast<uint32_t>(from.primitives.size()) });
+        for (const tinygltf::Primitive &primitive : from.primitives)
+            h.primitives.push_back(plain_primitive(primitive));
+    }
+}
+
+void convert_scene(holder &h)
+{
+    for (const tinygltf::Material &from : h.source.materials)
+        h.materials.push_back(plain_material(from));
+    for (const tinygltf::Texture &from : h.source.textures)
+        h.texture_images.push_back(reference(from.source));
+    for (const tinygltf::Node &from : h.source.nodes)
+        h.nodes.push_back(plain_node(h, from));
+    for (const tinygltf::Scene &from : h.source.scenes) {
+        nook_gltf_scene to{};
+        append_children(h, from.nodes, to.first_root, to.root_count);
+        h.scenes.push_back(to);
+    }
+    for (const tinygltf::Camera &from : h.source.cameras)
+        h.cameras.push_back({ from.name.c_str(), from.type == "perspective", from.perspective.yfov,
+                              from.type == "perspective" ? from.perspective.znear : from.orthographic.znear });
+    for (const tinygltf::Light &from : h.source.lights)
+        h.lights.push_back(plain_light(from));
+}
+
+template <class T> void publish(std::vector<T> &from, T *&to, uint32_t &count)
+{
+    to = from.data();
+    count = static_cast<uint32_t>(from.size());
+}
+
+void publish_all(holder &h)
+{
+    nook_gltf_model &m = h.plain;
+    publish(h.views, m.views, m.view_count);
+    publish(h.accessors, m.accessors, m.accessor_count);
+    publish(h.primitives, m.primitives, m.primitive_count);
+    publish(h.meshes, m.meshes, m.mesh_count);
+    publish(h.materials, m.materials, m.material_count);
+    publish(h.nodes, m.nodes, m.node_count);
+    publish(h.scenes, m.scenes, m.scene_count);
+    publish(h.cameras, m.cameras, m.camera_count);
+    publish(h.lights, m.lights, m.light_count);
+    publish(h.texture_images, m.texture_images, m.texture_count);
+    m.children = h.children.data();
+    m.skin_count = static_cast<uint32_t>(h.source.skins.size());
+    m.animation_count = static_cast<uint32_t>(h.source.animations.size());
+    m.default_scene = reference(h.source.defaultScene);
+}
+
+bool refuse_file(const std::string &, void *)
+{
+    return false;
+}
+
+bool refuse_read(std::vector<unsigned char> *, std::string *, const std::string &, void *)
+{
+    return false;
+}
+
+bool refuse_write(std::string *, const std::string &, const std::vector<unsigned char> &, void *)
+{
+    return false;
+}
+
+std::string same_path(const std::string &path, void *)
+{
+    return path;
+}
+
+bool parse(holder &h, const char *text, size_t size, std::string &error)
+{
+    tinygltf::TinyGLTF loader;
+    std::string warning;
+    loader.SetFsCallbacks({ refuse_file, same_path, refuse_read, refuse_write, nullptr });
+    return loader.LoadASCIIFromString(&h.source, &error, &warning, text, static_cast<unsigned>(size), "");
+}
+
+nook_gltf_model *fail(char *message, size_t capacity, const char *text)
+{
+    std::snprintf(message, capacity, "%s", text);
+    for (char *c = message; *c; c++)
+        if (*c == '\n')
+            *c = c[1] ? ' ' : '\0';
+    return nullptr;
+}
+
+} // namespace
+
+extern "C" nook_gltf_model *nook_gltf_model_parse(const char *text, size_t size, char *message,
+                                                  size_t capacity) noexcept
+{
+    try {
+        std::unique_ptr<holder> h(new holder);
+        std::string error;
+        if (!parse(*h, text, size, error))
+            return fail(message, capacity, error.empty() ? "tinygltf refused it" : error.c_str());
+        convert_geometry(*h);
+        convert_scene(*h);
+        publish_all(*h);
+        return &h.release()->plain;
+    } catch (const std::exception &e) {
+        return fail(message, capacity, e.what());
+    } catch (...) {
+        return fail(message, capacity, "unknown exception in tinygltf");
+    }
+}
+
+extern "C" void nook_gltf_model_free(nook_gltf_model *model) noexcept
+{
+    /* `plain` is the first member, and holder has no virtual functions. */
+    delete reinterpret_cast<holder *>(model);
+}

@@ -1,0 +1,193 @@
+#include "engine/asset/scene.h"
+#include "engine/asset/image.h"
+#include "engine/asset/scene_build.h"
+#include <float.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { WARNINGS_MAX = 100, WARNING_CAPACITY = 1024 };
+
+/* Beyond this the square of a distance is no longer a float. */
+static const double coordinate_max = 1e18;
+
+void *nook_scene_allocate(const char *path, size_t count, size_t element_size)
+{
+    void *memory = calloc(count ? count : 1, element_size);
+    if (!memory)
+        nook_fail(NOOK_E_MEMORY, "%s: no memory for %zu times %zu bytes", path, count, element_size);
+    return memory;
+}
+
+char *nook_scene_copy_string(const char *text)
+{
+    size_t size = text ? strlen(text) + 1 : 1;
+    char *copy = nook_scene_allocate("a name", size, 1);
+    if (copy && text)
+        memcpy(copy, text, size);
+    return copy;
+}
+
+void nook_scene_warn(nook_scene *scene, const char *format, ...)
+{
+    char text[WARNING_CAPACITY];
+    va_list arguments;
+    if (scene->warning_count == WARNINGS_MAX)
+        return;
+    if (!scene->warnings && !(scene->warnings = nook_scene_allocate(scene->path, WARNINGS_MAX, sizeof(char *))))
+        return;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    if (scene->warning_count == WARNINGS_MAX - 1)
+        snprintf(text, sizeof text, "%s: further warnings are not shown", scene->path);
+    nook_log_warning("%s", text);
+    char *copy = nook_scene_copy_string(text);
+    if (copy)
+        scene->warnings[scene->warning_count++] = copy;
+}
+
+void nook_scene_default_material(nook_material *out_material)
+{
+    *out_material = (nook_material){
+        .base_colour = { 1.0f, 1.0f, 1.0f, 1.0f },
+        .metallic = 1.0f,
+        .roughness = 1.0f,
+        .normal_scale = 1.0f,
+        .occlusion_strength = 1.0f,
+        .alpha_cutoff = 0.5f,
+        .base_colour_image = NOOK_NONE,
+        .metallic_roughness_image = NOOK_NONE,
+        .normal_image = NOOK_NONE,
+        .emissive_image = NOOK_NONE,
+        .occlusion_image = NOOK_NONE,
+    };
+}
+
+static void find_mesh_bounds(const nook_scene *scene, nook_mesh *mesh)
+{
+    for (int k = 0; k < 3; k++) {
+        mesh->bounds_min[k] = FLT_MAX;
+        mesh->bounds_max[k] = -FLT_MAX;
+    }
+    for (uint32_t p = 0; p < mesh->primitive_count; p++) {
+        const nook_primitive *primitive = &scene->primitives[mesh->first_primitive + p];
+        const nook_vertex *vertices = scene->vertices + primitive->first_vertex;
+        for (uint32_t v = 0; v < primitive->vertex_count; v++)
+            for (int k = 0; k < 3; k++) {
+                mesh->bounds_min[k] = fminf(mesh->bounds_min[k], vertices[v].position[k]);
+                mesh->bounds_max[k] = fmaxf(mesh->bounds_max[k], vertices[v].position[k]);
+            }
+    }
+}
+
+static void grow_bounds(nook_scene *scene, const nook_node *node, const nook_primitive *primitive)
+{
+    const nook_vertex *vertices = scene->vertices + primitive->first_vertex;
+    for (uint32_t v = 0; v < primitive->vertex_count; v++) {
+        double p[3] = { vertices[v].position[0], vertices[v].position[1], vertices[v].position[2] };
+        nook_matrix_apply_point(&node->world_from_local, p, p);
+        for (int k = 0; k < 3; k++) {
+            scene->bounds_min[k] = fmin(scene->bounds_min[k], p[k]);
+            scene->bounds_max[k] = fmax(scene->bounds_max[k], p[k]);
+        }
+    }
+}
+
+static void measure_nodes(nook_scene *scene)
+{
+    for (int k = 0; k < 3; k++) {
+        scene->bounds_min[k] = DBL_MAX;
+        scene->bounds_max[k] = -DBL_MAX;
+    }
+    scene->triangle_count = 0;
+    for (uint32_t n = 0; n < scene->node_count; n++) {
+        const nook_node *node = &scene->nodes[n];
+        if (node->mesh == NOOK_NONE)
+            continue;
+        const nook_mesh *mesh = &scene->meshes[node->mesh];
+        for (uint32_t p = 0; p < mesh->primitive_count; p++) {
+            const nook_primitive *primitive = &scene->primitives[mesh->first_primitive + p];
+            scene->triangle_count += primitive->index_count / 3;
+            grow_bounds(scene, node, primitive);
+        }
+    }
+}
+
+static bool has_area(const nook_scene *scene, const nook_primitive *primitive)
+{
+    const nook_vertex *v = scene->vertices + primitive->first_vertex;
+    const uint32_t *index = scene->indices + primitive->first_index;
+    for (uint32_t i = 0; i + 2 < primitive->index_count; i += 3) {
+        double e[2][3];
+        for (int k = 0; k < 3; k++) {
+            e[0][k] = (double)v[index[i + 1]].position[k] - (double)v[index[i]].position[k];
+            e[1][k] = (double)v[index[i + 2]].position[k] - (double)v[index[i]].position[k];
+        }
+        for (int k = 0; k < 3; k++)
+            if (e[0][k] * e[1][(k + 1) % 3] != e[0][(k + 1) % 3] * e[1][k])
+                return true;
+    }
+    return false;
+}
+
+static void warn_when_nothing_shows(nook_scene *scene)
+{
+    bool shows = false;
+    for (uint32_t p = 0; p < scene->primitive_count && !shows; p++)
+        shows = has_area(scene, &scene->primitives[p]);
+    if (scene->triangle_count == 0)
+        nook_scene_warn(scene, "%s: nothing to draw: no triangle in the default scene", scene->path);
+    else if (!shows)
+        nook_scene_warn(scene, "%s: nothing to draw: all triangles are degenerate", scene->path);
+}
+
+nook_result nook_scene_finish(nook_scene *scene)
+{
+    for (uint32_t m = 0; m < scene->mesh_count; m++)
+        find_mesh_bounds(scene, &scene->meshes[m]);
+    measure_nodes(scene);
+    warn_when_nothing_shows(scene);
+    if (scene->triangle_count == 0)
+        return NOOK_OK;
+    double size = 0.0, largest = 0.0;
+    for (int k = 0; k < 3; k++) {
+        size = fmax(size, scene->bounds_max[k] - scene->bounds_min[k]);
+        largest = fmax(largest, fmax(fabs(scene->bounds_min[k]), fabs(scene->bounds_max[k])));
+    }
+    if (!(largest <= coordinate_max))
+        return nook_fail(NOOK_E_FORMAT, "%s: reaches out to %g m, beyond %g; scale it down", scene->path, largest,
+                         coordinate_max);
+    if (size < (double)FLT_MIN || size < largest * (double)FLT_EPSILON)
+        nook_scene_warn(scene, "%s: its box is only %g m wide, %g m from the origin: no usable size", scene->path, size,
+                        largest);
+    return NOOK_OK;
+}
+
+void nook_scene_destroy(nook_scene *scene)
+{
+    if (!scene)
+        return;
+    for (uint32_t i = 0; scene->meshes && i < scene->mesh_count; i++)
+        free(scene->meshes[i].name);
+    for (uint32_t i = 0; scene->materials && i < scene->material_count; i++)
+        free(scene->materials[i].name);
+    for (uint32_t i = 0; scene->images && i < scene->image_count; i++) {
+        free(scene->images[i].name);
+        nook_image_free(scene->images[i].pixels);
+    }
+    for (uint32_t i = 0; scene->nodes && i < scene->node_count; i++)
+        free(scene->nodes[i].name);
+    for (uint32_t i = 0; scene->cameras && i < scene->camera_count; i++)
+        free(scene->cameras[i].name);
+    for (uint32_t i = 0; i < scene->warning_count; i++)
+        free(scene->warnings[i]);
+    void *arrays[] = { scene->vertices,  scene->indices,  scene->primitives, scene->meshes,
+                       scene->materials, scene->images,   scene->nodes,      scene->cameras,
+                       scene->lights,    scene->warnings, scene->path };
+    for (size_t i = 0; i < NOOK_COUNT(arrays); i++)
+        free(arrays[i]);
+    free(scene);
+}
