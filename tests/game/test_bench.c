@@ -1,0 +1,43 @@
+#include "game/commands/bench_ecs.h"
+#include "game/commands/commands.h"
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static void test_bench_gives_a_median_between_lowest_and_highest_for_each_step(void **state)
+{
+    (void)state;
+    nook_bench_times times[NOOK_BENCH_STEP_COUNT];
+    assert_int_equal(nook_bench_ecs(1000, 4, times), NOOK_OK);
+    for (nook_bench_ecs_step step = 0; step < NOOK_BENCH_STEP_COUNT; step++) {
+        assert_true(isfinite(times[step].highest));
+        assert_true(0 < times[step].lowest);
+        assert_true(times[step].lowest <= times[step].median && times[step].median <= times[step].highest);
+        for (nook_bench_ecs_step other = 0; other < step; other++)
+            assert_string_not_equal(nook_bench_ecs_name(step), nook_bench_ecs_name(other));
+    }
+}
+
+static void test_bench_refuses_what_it_cannot_time(void **state)
+{
+    (void)state;
+    const nook_app app = { .root = "." };
+    assert_int_equal(nook_command_bench(&app, 2, (char *[]){ "bench", "everything", NULL }), NOOK_EXIT_USAGE);
+    assert_int_equal(nook_command_bench(&app, 1, (char *[]){ "bench", NULL }), NOOK_EXIT_USAGE);
+    assert_int_equal(nook_command_bench(&app, 4, (char *[]){ "bench", "ecs", "--entities", "0", NULL }),
+                     NOOK_EXIT_USAGE);
+    assert_int_equal(nook_command_bench(&app, 4, (char *[]){ "bench", "ecs", "--entities", "10", NULL }), NOOK_EXIT_OK);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_bench_gives_a_median_between_lowest_and_highest_for_each_step),
+        cmocka_unit_test(test_bench_refuses_what_it_cannot_time),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
