@@ -1,6 +1,6 @@
 /* Accessors: every byte that will be read is proved to lie in its buffer, then reading is plain. */
-#include "engine/asset/gltf.h"
-#include "engine/asset/scene_build.h"
+#include "engine/asset/gltf_internal.h"
+#include "engine/asset/scene_internal.h"
 #include <assert.h>
 #include <math.h>
 #include <string.h>

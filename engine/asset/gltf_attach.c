@@ -1,6 +1,6 @@
 /* Cameras and lights: they sit on nodes, and only the place and the direction of those matter to them. */
-#include "engine/asset/gltf.h"
-#include "engine/asset/scene_build.h"
+#include "engine/asset/gltf_internal.h"
+#include "engine/asset/scene_internal.h"
 #include <math.h>
 #include <string.h>
 

@@ -1,6 +1,6 @@
 /* Checks the JSON itself, because tinygltf coerces or ignores what does not fit: -1, 2^62, strings for numbers. */
-#include "engine/asset/gltf.h"
-#include "engine/asset/gltf_schema.h"
+#include "engine/asset/gltf_internal.h"
+#include "engine/asset/gltf_schema_internal.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

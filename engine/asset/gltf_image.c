@@ -1,7 +1,7 @@
 /* The images of a glTF file. None of them is needed to draw the geometry, so everything wrong here is a warning. */
-#include "engine/asset/gltf.h"
+#include "engine/asset/gltf_internal.h"
 #include "engine/asset/image.h"
-#include "engine/asset/scene_build.h"
+#include "engine/asset/scene_internal.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

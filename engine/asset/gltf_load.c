@@ -1,6 +1,6 @@
 /* nook_scene_load: the order of the stages. */
-#include "engine/asset/gltf.h"
-#include "engine/asset/scene_build.h"
+#include "engine/asset/gltf_internal.h"
+#include "engine/asset/scene_internal.h"
 #include <stdlib.h>
 
 static void count_what_is_not_played(nook_gltf *gltf)

@@ -1,5 +1,5 @@
-#include "engine/asset/gltf.h"
-#include "engine/asset/scene_build.h"
+#include "engine/asset/gltf_internal.h"
+#include "engine/asset/scene_internal.h"
 #include <string.h>
 
 static float clamp01(double x)

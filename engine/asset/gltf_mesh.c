@@ -1,7 +1,7 @@
 /* Primitives to triangles: which are kept, what their attributes may be, strips and fans expanded. */
-#include "engine/asset/gltf.h"
-#include "engine/asset/gltf_vertex.h"
-#include "engine/asset/scene_build.h"
+#include "engine/asset/gltf_internal.h"
+#include "engine/asset/gltf_vertex_internal.h"
+#include "engine/asset/scene_internal.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* The node tree, flattened with parents first. Iterative: chains of 100,000 nodes exist to break recursion. */
-#include "engine/asset/gltf.h"
-#include "engine/asset/scene_build.h"
+#include "engine/asset/gltf_internal.h"
+#include "engine/asset/scene_internal.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

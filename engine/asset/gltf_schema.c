@@ -1,4 +1,4 @@
-#include "engine/asset/gltf_schema.h"
+#include "engine/asset/gltf_schema_internal.h"
 #include <limits.h>
 #include <stddef.h>
 

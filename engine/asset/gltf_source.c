@@ -1,6 +1,6 @@
 /* The container: plain JSON text, or GLB with its chunks. Sizes are compared in 64 bits, where nothing wraps. */
-#include "engine/asset/gltf.h"
-#include "engine/asset/scene_build.h"
+#include "engine/asset/gltf_internal.h"
+#include "engine/asset/scene_internal.h"
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>

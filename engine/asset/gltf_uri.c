@@ -1,6 +1,6 @@
 /* URIs: which ones may be opened, and their bytes. A scene from anywhere must not read files outside its folder. */
-#include "engine/asset/gltf.h"
-#include "engine/asset/scene_build.h"
+#include "engine/asset/gltf_internal.h"
+#include "engine/asset/scene_internal.h"
 #include <ctype.h>
 #include <errno.h>
 #include <stdarg.h>
@@ -176,7 +176,7 @@ static nook_result read_beside(const nook_gltf *gltf, const char *name, nook_glt
     if (folder + strlen(name) >= sizeof path)
         return refuse(NOOK_E_FORMAT, out_reason, "its path is too long");
     memcpy(path, gltf->path, folder);
-    strcpy(path + folder, name);
+    memcpy(path + folder, name, strlen(name) + 1);
     /* Looked at before it is opened: opening a device can already do something. */
     if (stat(path, &info) != 0 || access(path, R_OK) != 0)
         return refuse(NOOK_E_NOT_FOUND, out_reason, "its file '%.*s' cannot be read: %s", SHOWN, name, strerror(errno));

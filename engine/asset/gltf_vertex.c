@@ -1,5 +1,5 @@
-#include "engine/asset/gltf_vertex.h"
-#include "engine/asset/scene_build.h"
+#include "engine/asset/gltf_vertex_internal.h"
+#include "engine/asset/scene_internal.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

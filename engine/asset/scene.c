@@ -1,6 +1,6 @@
 #include "engine/asset/scene.h"
 #include "engine/asset/image.h"
-#include "engine/asset/scene_build.h"
+#include "engine/asset/scene_internal.h"
 #include <float.h>
 #include <math.h>
 #include <stdarg.h>

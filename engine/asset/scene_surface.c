@@ -1,5 +1,5 @@
 /* Normals and tangents that a file lacks. Computed in double: a dragon's triangles are 1e-4 m wide, their areas 1e-8. */
-#include "engine/asset/scene_build.h"
+#include "engine/asset/scene_internal.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

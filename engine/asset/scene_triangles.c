@@ -1,5 +1,5 @@
 /* Scenes made by code. */
-#include "engine/asset/scene_build.h"
+#include "engine/asset/scene_internal.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-/** gltf_schema.h - inside engine/asset only: what glTF 2.0 says each JSON member must be, as tables. */
+/** gltf_schema_internal.h - inside engine/asset only: what glTF 2.0 says each JSON member must be, as tables. */
 #pragma once
 #include <stdbool.h>
 #include <stdint.h>

@@ -1,5 +1,5 @@
 /**
- * gltf.h - inside engine/asset only: the state of one load, and its stages in their order.
+ * gltf_internal.h - inside engine/asset only: the state of one load, and its stages in their order.
  *
  *   source (bytes) -> document (JSON checked) -> buffers, images -> model (tinygltf) -> materials, meshes, nodes
  *

@@ -1,4 +1,4 @@
-/** scene_build.h - inside engine/asset only: what all makers of scenes share. */
+/** scene_internal.h - inside engine/asset only: what all makers of scenes share. */
 #pragma once
 #include "engine/asset/scene.h"
 #include "engine/core/log.h"

@@ -1,6 +1,6 @@
-/** gltf_vertex.h - inside engine/asset only: the attributes of one primitive become nook_vertex. */
+/** gltf_vertex_internal.h - inside engine/asset only: the attributes of one primitive become nook_vertex. */
 #pragma once
-#include "engine/asset/gltf.h"
+#include "engine/asset/gltf_internal.h"
 
 /** The primitive whose vertices were read last, so that one with the same attributes can share them. */
 typedef struct nook_gltf_vertex_source {
