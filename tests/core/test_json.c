@@ -1,6 +1,8 @@
 #include "engine/core/file.h"
 #include "engine/core/json.h"
 #include "tests/support/abort.h"
+#include "tests/support/log_capture.h"
+#include "tests/support/scratch.h"
 #include <float.h>
 #include <math.h>
 #include <setjmp.h>
@@ -10,7 +12,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include <cmocka.h>
 
@@ -176,20 +177,23 @@ static void test_json_grows_past_its_first_buffer(void **state)
 static void test_json_writes_a_file_and_refuses_a_directory(void **state)
 {
     (void)state;
-    char folder[] = "/tmp/nook_json_XXXXXX", path[64];
-    assert_non_null(mkdtemp(folder));
+    char path[512], folder[512];
+    nook_scratch_path(path, sizeof path, "a.json");
+    nook_scratch_path(folder, sizeof folder, "folder");
+    assert_int_equal(nook_directory_make(folder), NOOK_OK);
     nook_json json = { 0 };
     nook_json_bool(&json, false);
-    nook_path_join(path, sizeof path, folder, "a.json");
     assert_int_equal(nook_json_write_file(&json, path), NOOK_OK);
     nook_file file = { 0 };
     assert_int_equal(nook_file_read(path, &file), NOOK_OK);
     assert_string_equal((const char *)file.bytes, "false\n");
     nook_file_free(&file);
+    nook_log_capture capture;
+    nook_log_capture_begin(&capture);
     assert_int_equal(nook_json_write_file(&json, folder), NOOK_E_IO);
+    nook_log_capture_end();
+    assert_int_equal(capture.count, 1);
     nook_json_free(&json);
-    unlink(path);
-    rmdir(folder);
 }
 
 static void misuse_value_without_key(void)
