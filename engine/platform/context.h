@@ -4,6 +4,9 @@
  * window  GLFW: a real window (needs a display)
  * osmesa  OSMesa: software GL into memory; works everywhere
  * egl     EGL surfaceless or device platform: headless on a GPU server
+ *
+ * A context belongs to the thread that made it. A new one takes the place of the current one; of those of the same kind
+ * any may then be destroyed, of several kinds the newest first. There is one window at a time in a process.
  */
 #pragma once
 #include "engine/core/result.h"

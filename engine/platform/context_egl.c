@@ -22,6 +22,7 @@ typedef struct egl_functions {
                                 EGLint *count);
     EGLContext (*create_context)(EGLDisplay display, EGLConfig config, EGLContext share, const EGLint *attributes);
     EGLBoolean (*destroy_context)(EGLDisplay display, EGLContext context);
+    EGLContext (*get_current_context)(void);
     EGLBoolean (*make_current)(EGLDisplay display, EGLSurface draw, EGLSurface read, EGLContext context);
     PFNEGLGETPLATFORMDISPLAYEXTPROC get_platform_display;
     PFNEGLQUERYDEVICESEXTPROC query_devices;            /**< NULL: devices cannot be listed. */
@@ -57,7 +58,8 @@ static void drop_context(egl_context *self)
 {
     if (self->handle == EGL_NO_CONTEXT)
         return;
-    self->egl.make_current(self->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    if (self->egl.get_current_context() == self->handle) /* else it is a later one that is current */
+        self->egl.make_current(self->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     self->egl.destroy_context(self->display, self->handle);
     self->handle = EGL_NO_CONTEXT;
 }
@@ -81,9 +83,10 @@ static bool load_functions(void *library, egl_functions *egl)
     find(library, "eglChooseConfig", &egl->choose_config);
     find(library, "eglCreateContext", &egl->create_context);
     find(library, "eglDestroyContext", &egl->destroy_context);
+    find(library, "eglGetCurrentContext", &egl->get_current_context);
     find(library, "eglMakeCurrent", &egl->make_current);
     return egl->get_proc && egl->query_string && egl->initialize && egl->bind_api && egl->choose_config &&
-           egl->create_context && egl->destroy_context && egl->make_current;
+           egl->create_context && egl->destroy_context && egl->get_current_context && egl->make_current;
 }
 
 static nook_result load(egl_context *self, nook_context_reason *out_reason)

@@ -15,6 +15,7 @@ typedef struct osmesa_context {
     void *library;
     OSMesaContext handle;
     OSMesaContext (*create)(const int *attributes, OSMesaContext share);
+    OSMesaContext (*get_current)(void);
     GLboolean (*make_current)(OSMesaContext handle, void *buffer, GLenum type, GLsizei width, GLsizei height);
     void (*release)(OSMesaContext handle);
     uint32_t buffer[BUFFER_SIDE * BUFFER_SIDE];
@@ -30,7 +31,8 @@ static void destroy(nook_context *context)
 {
     osmesa_context *self = (osmesa_context *)context;
     if (self->handle) {
-        self->make_current(NULL, NULL, 0, 0, 0);
+        if (self->get_current() == self->handle) /* else it is a later one that is current */
+            self->make_current(NULL, NULL, 0, 0, 0);
         self->release(self->handle);
     }
     if (self->library)
@@ -45,10 +47,11 @@ static nook_result load(osmesa_context *self, nook_context_reason *out_reason)
     if (!self->library)
         return nook_context_refuse(out_reason, NOOK_E_DEVICE, "osmesa: %s; install libosmesa6", dlerror());
     find(self->library, "OSMesaCreateContextAttribs", &self->create);
+    find(self->library, "OSMesaGetCurrentContext", &self->get_current);
     find(self->library, "OSMesaMakeCurrent", &self->make_current);
     find(self->library, "OSMesaDestroyContext", &self->release);
     find(self->library, "OSMesaGetProcAddress", &self->base.get_proc);
-    if (!self->create || !self->make_current || !self->release || !self->base.get_proc)
+    if (!self->create || !self->get_current || !self->make_current || !self->release || !self->base.get_proc)
         return nook_context_refuse(out_reason, NOOK_E_DEVICE,
                                    "osmesa: libOSMesa.so.8 is older than Mesa 12; install libosmesa6");
     return NOOK_OK;
