@@ -6,7 +6,7 @@
  * egl     EGL surfaceless or device platform: headless on a GPU server
  *
  * A context belongs to the thread that made it. A new one takes the place of the current one; of those of the same kind
- * any may then be destroyed, of several kinds the newest first. There is one window at a time in a process.
+ * any may then be destroyed, of several kinds the newest first. All windows of a process are on the same display.
  */
 #pragma once
 #include "engine/core/result.h"

@@ -1,4 +1,5 @@
-/* A window by GLFW, with its input. */
+/* A window by GLFW, with its input. GLFW is never terminated: that would end every window of the process, and unload the GL
+   driver with what it still holds. The end of the process does it. */
 #include "engine/platform/context_internal.h"
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -146,7 +147,6 @@ static void destroy(nook_context *context)
 {
     window_context *self = (window_context *)context;
     glfwDestroyWindow(self->window);
-    glfwTerminate();
     free(self);
 }
 
@@ -157,8 +157,6 @@ static nook_result init_glfw(nook_context_reason *out_reason)
         return nook_context_refuse(
             out_reason, NOOK_E_DEVICE,
             "window: no display (DISPLAY and WAYLAND_DISPLAY are not set); use --backend osmesa");
-    if (glfwGetTimerFrequency() != 0) /* GLFW is one per process, and so its owner is one window */
-        return nook_context_refuse(out_reason, NOOK_E_DEVICE, "window: one is open already; close it first");
     if (glfwInit())
         return NOOK_OK;
     glfwGetError(&message);
@@ -199,7 +197,6 @@ nook_result nook_window_create(const nook_context_desc *desc, nook_context_reaso
         result = nook_context_refuse(out_reason, NOOK_E_DEVICE,
                                      "window: the display gives no OpenGL 4.5 core (%s); use --backend osmesa",
                                      message ? message : "GLFW gives no reason");
-        glfwTerminate();
         free(self);
         return result;
     }
