@@ -3,13 +3,13 @@
 #include "engine/render/internal.h"
 #include <math.h>
 
-static const float sky_top[3] = { 0.50f, 0.58f, 0.70f };
-static const float sky_bottom[3] = { 0.30f, 0.27f, 0.24f };
+static const float sky_top[3] = { 0.46f, 0.56f, 0.72f };
+static const float sky_bottom[3] = { 0.28f, 0.25f, 0.22f };
 
 nook_lights nook_lights_default(void)
 {
     nook_lights lights = {
-        .sun = { .direction = { 0.5, -1.0, -0.65 }, .colour = { 4.6f, 4.3f, 3.8f } },
+        .sun = { .direction = { 0.35, -1.0, -0.4 }, .colour = { 5.0f, 4.6f, 4.0f } },
         .exposure = 1.0f,
     };
     for (int i = 0; i < 3; i++) {
@@ -101,49 +101,56 @@ nook_lights nook_lights_from_scene(const nook_scene *scene)
     return lights;
 }
 
-/** Distance from the centre at which a camera with these half angles' tangents holds all corners of a box. */
-static double distance_to_hold(const nook_matrix *view, const double centre[3], const double half[3], double tan_x,
-                               double tan_y)
+/**
+ * Where a camera of given axes and half angles' tangents stands to see all corners of a box, as large as possible.
+ *
+ * A corner (x, z) is seen when |x - eye_x| <= tangent * (eye_z - z), and likewise in y: for each side of the frustum the
+ * corner that reaches farthest out decides, and opposite sides meet at the eye.
+ */
+static void eye_that_holds(const nook_matrix *turn, const double half[3], const double tangent[2], double out[3])
 {
-    double distance = 0.0;
+    double reach[2][2] = { { -INFINITY, -INFINITY }, { -INFINITY, -INFINITY } }, nearest = -INFINITY;
     for (int i = 0; i < 8; i++) {
-        double corner[3];
+        double p[3];
         for (int k = 0; k < 3; k++)
-            corner[k] = centre[k] + ((i >> k & 1) ? half[k] : -half[k]);
-        nook_matrix_apply_point(view, corner, corner);
-        distance = fmax(distance, corner[2] + fmax(fabs(corner[0]) / tan_x, fabs(corner[1]) / tan_y));
+            p[k] = (i >> k & 1) ? half[k] : -half[k];
+        nook_matrix_apply_vector(turn, p, p);
+        for (int k = 0; k < 2; k++) {
+            reach[k][0] = fmax(reach[k][0], p[k] + tangent[k] * p[2]);
+            reach[k][1] = fmax(reach[k][1], -p[k] + tangent[k] * p[2]);
+        }
+        nearest = fmax(nearest, p[2]);
     }
-    return distance;
+    out[2] = nearest;
+    for (int k = 0; k < 2; k++) {
+        out[k] = 0.5 * (reach[k][0] - reach[k][1]);
+        out[2] = fmax(out[2], (reach[k][0] + reach[k][1]) / (2.0 * tangent[k]));
+    }
 }
 
 nook_camera nook_camera_frame(const double bounds_min[3], const double bounds_max[3], double aspect)
 {
-    const double towards_eye[3] = { 0.52, 0.38, 0.77 }, up[3] = { 0, 1, 0 }, fov_y = 0.7;
-    double centre[3] = { 0, 0, 0 }, half[3] = { 0.5, 0.5, 0.5 }, eye[3], size = 0.0;
+    const double zero[3] = { 0, 0, 0 }, towards[3] = { -0.52, -0.38, -0.77 }, up[3] = { 0, 1, 0 };
+    const double fov_y = 0.7, margin = 0.92; /* of the half picture */
+    double centre[3] = { 0, 0, 0 }, half[3] = { 0.5, 0.5, 0.5 }, eye[3];
     bool empty = !(bounds_min[0] <= bounds_max[0]);
-    for (int i = 0; i < 3; i++) {
-        centre[i] = empty ? 0.0 : 0.5 * (bounds_min[i] + bounds_max[i]);
-        half[i] = empty ? 0.5 : 0.5 * (bounds_max[i] - bounds_min[i]);
-        size = fmax(size, half[i]);
+    for (int i = 0; i < 3 && !empty; i++) {
+        centre[i] = 0.5 * (bounds_min[i] + bounds_max[i]);
+        half[i] = 0.5 * (bounds_max[i] - bounds_min[i]);
     }
+    double size = sqrt(half[0] * half[0] + half[1] * half[1] + half[2] * half[2]);
     if (size == 0.0) /* a point */
         size = half[0] = half[1] = half[2] = 0.5;
+    const double tangent[2] = { margin * tan(0.5 * fov_y) * aspect, margin * tan(0.5 * fov_y) };
+    nook_matrix turn = nook_matrix_look_at(zero, towards, up);
+    eye_that_holds(&turn, half, tangent, eye);
+    nook_matrix move = nook_matrix_translation(-centre[0], -centre[1], -centre[2]);
+    nook_camera camera = { .fov_y_radians = fov_y, .z_near = 2e-3 * size };
+    camera.view_from_world = nook_matrix_multiply(&turn, &move);
     for (int i = 0; i < 3; i++)
-        eye[i] = centre[i] + towards_eye[i];
-    nook_matrix view = nook_matrix_look_at(eye, centre, up);
-    for (int i = 12; i < 15; i++) /* turn only: corners relative to the centre */
-        view.m[i] = 0.0;
-    const double zero[3] = { 0, 0, 0 };
-    double distance = 1.04 * distance_to_hold(&view, zero, half, tan(0.5 * fov_y) * aspect, tan(0.5 * fov_y));
-    double length =
-        sqrt(towards_eye[0] * towards_eye[0] + towards_eye[1] * towards_eye[1] + towards_eye[2] * towards_eye[2]);
-    for (int i = 0; i < 3; i++)
-        eye[i] = centre[i] + towards_eye[i] * distance / length;
-    return (nook_camera){
-        .view_from_world = nook_matrix_look_at(eye, centre, up),
-        .fov_y_radians = fov_y,
-        .z_near = 1e-3 * distance,
-    };
+        camera.view_from_world.m[12 + i] -= eye[i];
+    camera.view_from_world.m[14] -= 2.0 * camera.z_near; /* so that a flat box does not touch the near plane */
+    return camera;
 }
 
 nook_camera nook_camera_from_scene(const nook_scene_camera *camera)

@@ -84,6 +84,7 @@ struct nook_render_scene {
     nook_texture *textures;           /* owned: every image that is used, once per encoding */
     uint32_t texture_count;
     uint64_t bytes;
+    double created_ms; /* tells this scene from an older one at the same address */
 };
 
 /** Instances of one mesh, and of one handedness, that follow each other in the instance buffer. */
@@ -125,12 +126,24 @@ typedef struct render_targets {
     nook_framebuffer gbuffer_target, light_target, blended_target, image_target;
 } render_targets;
 
+/** What the shadow map holds, to tell whether it must be drawn again. */
+typedef struct shadow_contents {
+    const nook_render_scene *scene; /* NULL: nothing */
+    double scene_created_ms;
+    double sun_direction[3];
+    grow_list draws; /* nook_draw */
+    size_t draw_count;
+    nook_matrix map_from_world; /* to [0, 1]^3 */
+    double texel;               /* metres */
+} shadow_contents;
+
 struct nook_renderer {
     nook_gpu *gpu;
     uint32_t width, height;
     render_targets targets;
     nook_texture shadow_map;
     nook_framebuffer shadow_target;
+    shadow_contents shadow;
     nook_texture white;
     nook_buffer frame_uniforms, light_uniforms;
     uint32_t vertex_array;

@@ -99,6 +99,7 @@ void nook_renderer_destroy(nook_renderer *r)
     nook_draw_set_destroy(r->gpu, &r->visible);
     nook_draw_set_destroy(r->gpu, &r->casters);
     free(r->blended.items);
+    free(r->shadow.draws.items);
     nook_framebuffer_destroy(r->gpu, &r->shadow_target);
     gl->DeleteVertexArrays(1, &r->vertex_array);
     gl->DeleteVertexArrays(1, &r->empty_vertex_array);

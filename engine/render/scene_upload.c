@@ -1,3 +1,4 @@
+#include "engine/core/clock.h"
 #include "engine/core/log.h"
 #include "engine/render/internal.h"
 #include <math.h>
@@ -174,6 +175,7 @@ nook_result nook_render_scene_create(nook_gpu *gpu, const nook_scene *scene, noo
         return nook_fail(NOOK_E_MEMORY, "%s: no memory to upload it", scene->path);
     s->gpu = gpu;
     s->scene = scene;
+    s->created_ms = nook_clock_ms();
     s->texture_count = scene->image_count * 2;
     s->textures = calloc((size_t)s->texture_count + 1, sizeof *s->textures);
     s->primitives = calloc((size_t)scene->primitive_count + 1, sizeof *s->primitives);

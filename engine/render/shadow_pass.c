@@ -1,12 +1,14 @@
+#include "engine/core/log.h"
 #include "engine/render/internal.h"
 #include <math.h>
+#include <string.h>
 
 /** A box in the sun's axes: x, y across, z away from the sun. */
 typedef struct sun_box {
     double low[3], high[3];
 } sun_box;
 
-/** World from a mesh's corners to the sun's axes, around `origin`. */
+/** Extends a box by that of a mesh. */
 static void add_mesh(const nook_mesh *mesh, const nook_matrix *sun_from_mesh, sun_box *box)
 {
     for (int i = 0; i < 8; i++) {
@@ -35,19 +37,15 @@ static bool box_of_draws(const nook_frame *frame, const nook_matrix *sun_from_wo
     return box->low[0] <= box->high[0] && isfinite(box->high[0] - box->low[0]);
 }
 
-/** The sun's axes with the camera as origin: z away from the sun, so that depth grows along its light. */
-static nook_matrix sun_axes(const nook_frame *frame)
+/** The sun's axes: z away from the sun, so that depth grows along its light. */
+static nook_matrix sun_axes(const nook_sun *sun)
 {
-    const double *d = frame->lights->sun.direction;
+    const double *d = sun->direction;
     const double zero[3] = { 0, 0, 0 }, up[3] = { 0, 1, 0 }, side[3] = { 1, 0, 0 };
     bool steep = fabs(d[1]) > 0.99 * sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
     nook_matrix view = nook_matrix_look_at(zero, d, steep ? side : up); /* looks along -z */
     nook_matrix flip = nook_matrix_scale(1.0, 1.0, -1.0);
-    double eye[3];
-    nook_camera_position(&frame->camera, eye);
-    nook_matrix to_eye = nook_matrix_translation(-eye[0], -eye[1], -eye[2]);
-    view = nook_matrix_multiply(&flip, &view);
-    return nook_matrix_multiply(&view, &to_eye);
+    return nook_matrix_multiply(&flip, &view);
 }
 
 /** Fits the map to a box. @return map from sun: [0, 1]^3; *texel is a texel's width in metres */
@@ -66,12 +64,35 @@ static nook_matrix fit(const sun_box *box, double *texel)
     return nook_matrix_multiply(&scale, &move);
 }
 
-static nook_result draw_map(nook_renderer *renderer, const nook_frame *frame, const nook_matrix *map_from_world)
+static bool is_current(const shadow_contents *shadow, const nook_frame *frame)
+{
+    return shadow->scene == frame->scene && shadow->scene_created_ms == frame->scene->created_ms &&
+           memcmp(shadow->sun_direction, frame->lights->sun.direction, sizeof shadow->sun_direction) == 0 &&
+           shadow->draw_count == frame->draw_count &&
+           (frame->draw_count == 0 ||
+            memcmp(shadow->draws.items, frame->draws, frame->draw_count * sizeof *frame->draws) == 0);
+}
+
+static nook_result remember(shadow_contents *shadow, const nook_frame *frame)
+{
+    size_t size = frame->draw_count * sizeof *frame->draws;
+    if (!nook_grow(&shadow->draws, size))
+        return nook_fail(NOOK_E_MEMORY, "%zu draws: no memory to remember their shadows", frame->draw_count);
+    if (size > 0)
+        memcpy(shadow->draws.items, frame->draws, size);
+    memcpy(shadow->sun_direction, frame->lights->sun.direction, sizeof shadow->sun_direction);
+    shadow->draw_count = frame->draw_count;
+    shadow->scene_created_ms = frame->scene->created_ms;
+    shadow->scene = frame->scene;
+    return NOOK_OK;
+}
+
+static nook_result draw_map(nook_renderer *renderer, const nook_frame *frame)
 {
     const nook_gl *gl = renderer->gpu->gl;
     nook_matrix clip_from_map = nook_matrix_scale(2.0, 2.0, 1.0); /* x and y to [-1, 1] */
     clip_from_map.m[12] = clip_from_map.m[13] = -1.0;
-    batch_view view = { .view_from_world = nook_matrix_multiply(&clip_from_map, map_from_world) };
+    batch_view view = { .view_from_world = nook_matrix_multiply(&clip_from_map, &renderer->shadow.map_from_world) };
     nook_result result = nook_batch(renderer->gpu, frame, &view, &renderer->casters);
     if (result != NOOK_OK)
         return result;
@@ -82,24 +103,36 @@ static nook_result draw_map(nook_renderer *renderer, const nook_frame *frame, co
     nook_draw_solid(renderer, frame->scene, &renderer->casters, renderer->shadow_program,
                     renderer->shadow_masked_program, false);
     nook_raster_end(renderer->gpu);
-    return NOOK_OK;
+    return remember(&renderer->shadow, frame);
+}
+
+/** The map as the shaders use it: from relative space. The camera moves, the map need not. */
+static void set_uniforms(nook_renderer *renderer, const nook_camera *camera)
+{
+    double eye[3];
+    nook_camera_position(camera, eye);
+    nook_matrix world_from_relative = nook_matrix_translation(eye[0], eye[1], eye[2]);
+    nook_matrix map_from_relative = nook_matrix_multiply(&renderer->shadow.map_from_world, &world_from_relative);
+    nook_matrix_to_float(&map_from_relative, renderer->frame.shadow_from_relative);
+    renderer->frame.shadow_texel = (float)renderer->shadow.texel;
 }
 
 nook_result nook_pass_shadow(nook_renderer *renderer, const nook_frame *frame)
 {
+    shadow_contents *shadow = &renderer->shadow;
     if (!nook_sun_shines(&frame->lights->sun))
         return NOOK_OK;
-    nook_matrix sun_from_world = sun_axes(frame);
-    sun_box box;
-    if (!box_of_draws(frame, &sun_from_world, &box))
-        return NOOK_OK;
-    double texel, eye[3];
-    nook_matrix map_from_sun = fit(&box, &texel);
-    nook_matrix map_from_world = nook_matrix_multiply(&map_from_sun, &sun_from_world);
-    nook_camera_position(&frame->camera, eye);
-    nook_matrix world_from_relative = nook_matrix_translation(eye[0], eye[1], eye[2]);
-    nook_matrix map_from_relative = nook_matrix_multiply(&map_from_world, &world_from_relative);
-    nook_matrix_to_float(&map_from_relative, renderer->frame.shadow_from_relative);
-    renderer->frame.shadow_texel = (float)texel;
-    return draw_map(renderer, frame, &map_from_world);
+    nook_result result = NOOK_OK;
+    if (!is_current(shadow, frame)) {
+        nook_matrix sun_from_world = sun_axes(&frame->lights->sun);
+        sun_box box;
+        shadow->scene = NULL;
+        if (!box_of_draws(frame, &sun_from_world, &box))
+            return NOOK_OK; /* nothing is drawn: nobody looks into the map */
+        nook_matrix map_from_sun = fit(&box, &shadow->texel);
+        shadow->map_from_world = nook_matrix_multiply(&map_from_sun, &sun_from_world);
+        result = draw_map(renderer, frame);
+    }
+    set_uniforms(renderer, &frame->camera);
+    return result;
 }
