@@ -1,6 +1,7 @@
 #include "engine/gpu/shader_source.h"
 #include "engine/core/file.h"
 #include "engine/core/log.h"
+#include <assert.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -47,6 +48,7 @@ static nook_result append_line(reader *self, const char *bytes, size_t size, uin
     nook_shader_source *out = self->out;
     if (!reserve_line(out, size))
         return nook_fail(NOOK_E_MEMORY, "%s: out of memory", out->files[file].path);
+    assert(out->text && out->lines);
     memcpy(out->text + out->size, bytes, size);
     out->size += size;
     out->text[out->size++] = '\n';

@@ -38,7 +38,7 @@ static bool has_display(void)
 /* A real GPU first, then OSMesa, whose results every machine repeats, then whatever software EGL there is. */
 static nook_result create_headless(const nook_context_desc *desc, nook_context **out_context)
 {
-    nook_context_reason hardware, osmesa, egl;
+    nook_context_reason hardware = { "" }, osmesa = { "" }, egl = { "" };
     if (nook_egl_create(desc, true, &hardware, out_context) == NOOK_OK)
         return NOOK_OK;
     if (nook_osmesa_create(desc, &osmesa, out_context) == NOOK_OK)
@@ -50,7 +50,7 @@ static nook_result create_headless(const nook_context_desc *desc, nook_context *
 
 static nook_result create_auto(const nook_context_desc *desc, nook_context **out_context)
 {
-    nook_context_reason reason;
+    nook_context_reason reason = { "" };
     if (desc->want_window && has_display()) {
         if (nook_window_create(desc, &reason, out_context) == NOOK_OK)
             return NOOK_OK;

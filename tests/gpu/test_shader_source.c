@@ -3,6 +3,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <string.h>
 
 #include <cmocka.h> /* wants those above first */
@@ -57,10 +58,9 @@ static void test_translation_is_cut_to_its_capacity(void **state)
     nook_shader_line from = { 0, 7 };
     const nook_shader_source source = { .lines = &from, .line_count = 1, .files = &file, .file_count = 1 };
     char text[9] = "--------", line[5000];
-    memset(line, 'x', sizeof line);
-    memcpy(line, "0:1(1): ", 8);
-    nook_shader_source_translate(&source, line, sizeof line, text, sizeof text);
-    assert_string_equal(text, "a:7: xxx");
+    snprintf(line, sizeof line, "0:1(1): %04000d", 0);
+    nook_shader_source_translate(&source, line, strlen(line), text, sizeof text);
+    assert_string_equal(text, "a:7: 000");
 }
 
 int main(void)

@@ -79,7 +79,7 @@ static nook_context *open_window(bool hidden)
 static void test_window_without_a_display_says_what_to_do(void **state)
 {
     (void)state;
-    saved_environment saved;
+    saved_environment saved = { 0 };
     nook_log_capture log;
     nook_context *context = (nook_context *)&log;
     take_displays_away(&saved);
@@ -96,7 +96,7 @@ static void test_window_without_a_display_says_what_to_do(void **state)
 static void test_automatic_choice_without_a_display_is_silent_and_headless(void **state)
 {
     (void)state;
-    saved_environment saved;
+    saved_environment saved = { 0 };
     nook_log_capture log;
     nook_context *context = NULL;
     take_displays_away(&saved);
@@ -113,7 +113,7 @@ static void test_automatic_choice_without_a_display_is_silent_and_headless(void 
 static void test_automatic_choice_with_a_dead_display_warns_and_goes_on(void **state)
 {
     (void)state;
-    saved_environment saved;
+    saved_environment saved = { 0 };
     nook_log_capture log;
     nook_context *context = NULL;
     take_displays_away(&saved);

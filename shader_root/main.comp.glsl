@@ -1,2 +1,0 @@
-layout(local_size_x = 8) in;
-void main() { }

@@ -1,1 +1,0 @@
-#include "deep1.glsl"

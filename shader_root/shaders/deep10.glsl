@@ -1,1 +1,0 @@
-#include "deep11.glsl"

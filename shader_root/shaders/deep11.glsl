@@ -1,1 +1,0 @@
-#include "deep12.glsl"

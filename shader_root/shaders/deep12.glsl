@@ -1,1 +1,0 @@
-#include "deep13.glsl"

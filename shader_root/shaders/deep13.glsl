@@ -1,1 +1,0 @@
-#include "deep14.glsl"

@@ -1,1 +1,0 @@
-#include "deep15.glsl"

@@ -1,1 +1,0 @@
-#include "deep16.glsl"

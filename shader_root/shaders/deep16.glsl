@@ -1,1 +1,0 @@
-#include "deep17.glsl"

@@ -1,1 +1,0 @@
-#include "deep18.glsl"

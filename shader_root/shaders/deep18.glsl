@@ -1,1 +1,0 @@
-#include "deep19.glsl"

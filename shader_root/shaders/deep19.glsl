@@ -1,1 +1,0 @@
-#include "deep20.glsl"

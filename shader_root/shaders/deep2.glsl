@@ -1,1 +1,0 @@
-#include "deep3.glsl"

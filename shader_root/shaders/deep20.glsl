@@ -1,1 +1,0 @@
-#include "deep21.glsl"

@@ -1,1 +1,0 @@
-#include "deep22.glsl"

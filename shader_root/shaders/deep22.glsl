@@ -1,1 +1,0 @@
-#include "deep23.glsl"

@@ -1,1 +1,0 @@
-#include "deep24.glsl"

@@ -1,1 +1,0 @@
-#include "deep25.glsl"

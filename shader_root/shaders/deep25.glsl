@@ -1,1 +1,0 @@
-#include "deep26.glsl"

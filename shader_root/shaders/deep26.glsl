@@ -1,1 +1,0 @@
-#include "deep27.glsl"

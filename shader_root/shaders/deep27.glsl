@@ -1,1 +1,0 @@
-#include "deep28.glsl"

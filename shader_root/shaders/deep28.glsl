@@ -1,1 +1,0 @@
-#include "deep29.glsl"

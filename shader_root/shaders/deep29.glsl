@@ -1,1 +1,0 @@
-#include "deep30.glsl"

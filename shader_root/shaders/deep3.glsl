@@ -1,1 +1,0 @@
-#include "deep4.glsl"

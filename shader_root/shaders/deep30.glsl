@@ -1,1 +1,0 @@
-#include "deep31.glsl"

@@ -1,1 +1,0 @@
-#include "deep32.glsl"

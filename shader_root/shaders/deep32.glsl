@@ -1,1 +1,0 @@
-#include "deep33.glsl"

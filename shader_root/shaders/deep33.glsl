@@ -1,1 +1,0 @@
-#include "deep34.glsl"

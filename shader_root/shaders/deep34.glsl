@@ -1,1 +1,0 @@
-#include "deep35.glsl"

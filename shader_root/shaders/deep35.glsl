@@ -1,1 +1,0 @@
-#include "deep36.glsl"

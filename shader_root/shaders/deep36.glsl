@@ -1,1 +1,0 @@
-#include "deep37.glsl"

@@ -1,1 +1,0 @@
-#include "deep38.glsl"

@@ -1,1 +1,0 @@
-#include "deep39.glsl"

@@ -1,1 +1,0 @@
-#include "deep40.glsl"

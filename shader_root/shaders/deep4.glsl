@@ -1,1 +1,0 @@
-#include "deep5.glsl"

@@ -1,1 +1,0 @@
-#include "deep6.glsl"

@@ -1,1 +1,0 @@
-#include "deep7.glsl"

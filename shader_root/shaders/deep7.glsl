@@ -1,1 +1,0 @@
-#include "deep8.glsl"

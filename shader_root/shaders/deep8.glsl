@@ -1,1 +1,0 @@
-#include "deep9.glsl"

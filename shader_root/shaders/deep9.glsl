@@ -1,1 +1,0 @@
-#include "deep10.glsl"

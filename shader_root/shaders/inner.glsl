@@ -1,2 +1,0 @@
-
-#include "nook/nothing.glsl"

@@ -1,3 +1,0 @@
-float good() { return 1.0; }
-
-

@@ -1,6 +1,0 @@
-float a;
-float b;
-float c;
-float d;
-float e;
-float f;

@@ -1,3 +1,0 @@
-#pragma once
-#include "other.glsl"
-uint once() { return 5u; }

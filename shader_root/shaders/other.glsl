@@ -1,3 +1,0 @@
-#pragma once
-#include "once.glsl"
-uint other() { return 6u; }
