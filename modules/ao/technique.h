@@ -47,8 +47,13 @@ typedef struct nook_ao_pass {
     /** The same numbers as in the frame block, for techniques that run on the CPU. */
     double r_max;
     int falloff;            /**< Index into the choices of ao.falloff: shaders/ao/falloff.glsl has the formulas. */
-    double tan_half_fov[2]; /**< x, y: view position of a pixel at depth d is ((2u - 1) tan_x, (2v - 1) tan_y, -1) d. */
-    uint32_t seed;
+    double falloff_tau;
+    /** View position of a pixel: (ndc * ray_scale + ray_offset, -1) * depth, with ndc = 2 (pixel + 0.5) / size - 1. */
+    double ray_scale[2], ray_offset[2];
+    uint32_t seed; /**< From the frame index. */
+    /** For work over a second: fraction in [0, 1]. Never NULL; called on the recording thread. */
+    void (*progress)(void *user, double fraction);
+    void *progress_user;
 
     /** NOOK_AO_IN_VOLUMES: bound by the host for modules/ao/volumes.h; see shaders/ao/occluders.glsl. */
     nook_texture volume_atlas; /**< R8 3D. Binding 2. */

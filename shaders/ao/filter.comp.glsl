@@ -1,0 +1,107 @@
+// Joint bilateral filter and upscaling in one (Papaioannou et al. 2010, section 6; Kopf et al. 2007): 17 samples of the
+// trace in a Gaussian disc around each full-resolution pixel, narrowed along the depth gradient so that it stays on the
+// surface, weighted by distance to the pixel's plane and by normal.
+//
+// Constant in gives constant out bit for bit: the result is the nearest sample plus a weighted mean of differences to it.
+#version 450 core
+#include "ao/frame.glsl"
+#include "nook/octahedral.glsl"
+layout(local_size_x = 16, local_size_y = 8) in;
+layout(binding = 0) uniform sampler2D depth_full;
+layout(binding = 1) uniform sampler2D normal_full;
+layout(binding = 2) uniform sampler2D depth_trace;
+layout(binding = 3) uniform sampler2D normal_trace;
+layout(binding = 4) uniform sampler2D visibility_trace;
+layout(binding = 0, r32f) uniform writeonly image2D visibility_out;
+
+// A golden-angle disc: radius sqrt((i + 0.5) / 16); the 17th sample is the centre.
+const int RING = 16;
+const float GOLDEN_ANGLE = 2.39996323;
+const float WEIGHT_MIN = 1e-3; // below this a sample is on another surface: it has no say at all
+
+struct Guide {
+    vec3 position, normal;
+    float footprint; // metres
+};
+
+float guide_weight(Guide guide, ivec2 q, float depth)
+{
+    vec3 offset = view_position(q, depth) - guide.position;
+    float plane = dot(guide.normal, offset) / (guide.footprint * float(frame.scale) * frame.filter_depth);
+    float facing = max(dot(guide.normal, octahedral_decode(texelFetch(normal_trace, q, 0).xy)), 0.0);
+    return exp(-plane * plane) * pow(max(facing, 1e-6), frame.filter_normal);
+}
+
+// Disc to ellipse: the surface's slant shortens it along the gradient of depth.
+mat2 ellipse(vec3 normal, vec3 position)
+{
+    vec3 to_eye = -normalize(position);
+    float slant = clamp(dot(normal, to_eye), 0.2, 1.0);
+    vec2 gradient = normal.xy - to_eye.xy * dot(normal, to_eye);
+    float size = length(gradient);
+    vec2 along = size > 1e-4 ? gradient / size : vec2(1.0, 0.0);
+    vec2 across = vec2(-along.y, along.x);
+    return outerProduct(along, along) * slant + outerProduct(across, across);
+}
+
+// Of the four trace samples that enclose `centre`, the one that lies best on the guide's plane; nearer ones first.
+ivec2 nearest_sample(vec2 centre, Guide guide)
+{
+    ivec2 base = ivec2(floor(centre)), best = clamp(ivec2(round(centre)), ivec2(0), frame.size - 1);
+    float best_weight = 0.0;
+    for (int i = 0; i < 4; i++) {
+        ivec2 q = clamp(base + ivec2(i & 1, i >> 1), ivec2(0), frame.size - 1);
+        float depth = texelFetch(depth_trace, q, 0).r;
+        if (depth <= 0.0)
+            continue;
+        vec2 apart = vec2(q) - centre;
+        float weight = (guide_weight(guide, q, depth) + 1e-6) / (1.0 + dot(apart, apart));
+        if (weight > best_weight) {
+            best_weight = weight;
+            best = q;
+        }
+    }
+    return best;
+}
+
+float filtered(vec2 centre, Guide guide, ivec2 p)
+{
+    ivec2 start = frame.scale == 1 ? p : nearest_sample(centre, guide);
+    float reference = texelFetch(visibility_trace, start, 0).r;
+    mat2 shape = ellipse(guide.normal, guide.position) * frame.filter_radius;
+    float turn = noise(p & 3, 7u) * 6.2831853, sum = 0.0, weights = 0.0;
+    for (int i = 0; i <= RING; i++) {
+        float radius = i == RING ? 0.0 : sqrt((float(i) + 0.5) / float(RING));
+        float angle = float(i) * GOLDEN_ANGLE + turn;
+        ivec2 q = ivec2(round(centre + shape * (radius * vec2(cos(angle), sin(angle)))));
+        if (any(lessThan(q, ivec2(0))) || any(greaterThanEqual(q, frame.size)))
+            continue;
+        float depth = texelFetch(depth_trace, q, 0).r;
+        if (depth <= 0.0)
+            continue;
+        float weight = guide_weight(guide, q, depth);
+        if (weight < WEIGHT_MIN)
+            continue;
+        weight *= exp(-radius * radius);
+        sum += weight * (texelFetch(visibility_trace, q, 0).r - reference);
+        weights += weight;
+    }
+    return weights > 0.0 ? reference + sum / weights : reference;
+}
+
+void main()
+{
+    ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(p, frame.full_size)))
+        return;
+    float depth = texelFetch(depth_full, p, 0).r, result = 1.0;
+    if (depth > 0.0) {
+        Guide guide;
+        guide.position = full_ray(vec2(p)) * depth;
+        guide.normal = octahedral_decode(texelFetch(normal_full, p, 0).xy);
+        guide.footprint = depth * pixel_footprint();
+        vec2 centre = (vec2(p) - float(frame.scale / 2)) / float(frame.scale);
+        result = clamp(filtered(centre, guide, p), 0.0, 1.0);
+    }
+    imageStore(visibility_out, p, vec4(result));
+}

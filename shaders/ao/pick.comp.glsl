@@ -1,0 +1,18 @@
+// Full-resolution depth and normals -> trace resolution: one pixel of each block, never an average (it lies on no surface).
+#version 450 core
+#include "ao/frame.glsl"
+layout(local_size_x = 16, local_size_y = 8) in;
+layout(binding = 0) uniform sampler2D depth_full;
+layout(binding = 1) uniform sampler2D normal_full;
+layout(binding = 0, r32f) uniform writeonly image2D depth_out;
+layout(binding = 1, rg16) uniform writeonly image2D normal_out;
+
+void main()
+{
+    ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(p, frame.size)))
+        return;
+    ivec2 from = full_pixel(p);
+    imageStore(depth_out, p, texelFetch(depth_full, from, 0));
+    imageStore(normal_out, p, texelFetch(normal_full, from, 0));
+}

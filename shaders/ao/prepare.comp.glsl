@@ -1,0 +1,55 @@
+// Device depth and world normals of the host -> distance along -Z and view normals: the inputs of every technique.
+#version 450 core
+#include "ao/frame.glsl"
+#include "nook/octahedral.glsl"
+layout(local_size_x = 16, local_size_y = 8) in;
+layout(binding = 0) uniform sampler2D device_depth;
+layout(binding = 1) uniform sampler2D normal_world;
+layout(binding = 0, r32f) uniform writeonly image2D depth_out;
+layout(binding = 1, rg16) uniform writeonly image2D normal_out;
+
+float distance_at(ivec2 p)
+{
+    float d = texelFetch(device_depth, clamp(p, ivec2(0), frame.full_size - 1), 0).r;
+    float distance = frame.depth_to_distance.x / (d + frame.depth_to_distance.y);
+    bool seen = d != frame.depth_background && distance > 0.0 && distance < 1e30;
+    return seen ? distance : 0.0;
+}
+
+// The side of p along `direction` that leaves the surface least: a neighbour may lie on another object.
+vec3 slope(ivec2 p, float centre, ivec2 direction)
+{
+    float before = distance_at(p - direction), after = distance_at(p + direction);
+    bool use_after = before <= 0.0 || (after > 0.0 && abs(after - centre) < abs(centre - before));
+    float other = use_after ? after : before;
+    if (other <= 0.0)
+        other = centre;
+    ivec2 neighbour = use_after ? p + direction : p - direction;
+    vec3 difference = full_ray(vec2(neighbour)) * other - full_ray(vec2(p)) * centre;
+    return use_after ? difference : -difference;
+}
+
+vec3 normal_at(ivec2 p, float depth)
+{
+    if (frame.has_normal != 0) {
+        vec3 world = octahedral_decode(texelFetch(normal_world, p, 0).xy);
+        mat3 rotation = mat3(frame.view_from_world[0].xyz, frame.view_from_world[1].xyz, frame.view_from_world[2].xyz);
+        vec3 view = rotation * world;
+        float size = dot(view, view);
+        if (size > 0.25 && size < 4.0) // false for NaN
+            return view * inversesqrt(size);
+    }
+    vec3 rebuilt = cross(slope(p, depth, ivec2(1, 0)), slope(p, depth, ivec2(0, 1)));
+    float size = dot(rebuilt, rebuilt);
+    return size > 0.0 ? rebuilt * inversesqrt(size) : vec3(0.0, 0.0, 1.0);
+}
+
+void main()
+{
+    ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(p, frame.full_size)))
+        return;
+    float depth = distance_at(p);
+    imageStore(depth_out, p, vec4(depth));
+    imageStore(normal_out, p, vec4(octahedral_encode(normal_at(p, depth)), 0.0, 0.0));
+}
