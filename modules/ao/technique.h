@@ -46,7 +46,7 @@ typedef struct nook_ao_pass {
 
     /** The same numbers as in the frame block, for techniques that run on the CPU. */
     double r_max;
-    int falloff;            /**< Index into the choices of ao.falloff: shaders/ao/falloff.glsl has the formulas. */
+    int falloff; /**< Index into the choices of ao.falloff: shaders/ao/falloff.glsl has the formulas. */
     double falloff_tau;
     /** View position of a pixel: (ndc * ray_scale + ray_offset, -1) * depth, with ndc = 2 (pixel + 0.5) / size - 1. */
     double ray_scale[2], ray_offset[2];

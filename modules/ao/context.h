@@ -1,0 +1,74 @@
+/**
+ * context.h - the inside of nook_ao, shared by the files of modules/ao only.
+ */
+#pragma once
+#include "modules/ao/nook_ao.h"
+#include "modules/ao/technique.h"
+#include "modules/ao/volume_atlas.h"
+
+#define NOOK_PARAM_STRUCT ao_shared
+#define NOOK_PARAM_FILE "modules/ao/params.def"
+#define NOOK_PARAM_TABLE ao_shared_table
+#include "engine/core/param_block.inl"
+
+enum { AO_TECHNIQUE_MAX = 16, AO_OCCLUDER_DEFAULT = 4096 };
+
+typedef struct ao_slot {
+    const nook_ao_technique *technique;
+    void *state;        /**< technique->state_size bytes. Owned. */
+    void *params;       /**< technique->params_size bytes. Owned. */
+    nook_buffer buffer; /**< The params on the GPU. */
+} ao_slot;
+
+typedef struct ao_mesh {
+    nook_ao_mesh_view view; /**< Its arrays are owned here. */
+    float *positions;
+    uint32_t *indices;
+} ao_mesh;
+
+/** Row of the GPU's occluder list: struct Occluder of shaders/ao/occluders.glsl, std430. */
+typedef struct ao_gpu_occluder {
+    float voxel_from_view[3][4];  /**< Rows: voxel coordinates of the volume, (0, 0, 0) at its outer corner. */
+    float normal_from_view[3][4]; /**< Rows of the inverse transpose of the 3x3 part; w unused. */
+    float size[4];                /**< Voxels; w: the box's bounding radius in metres. */
+    float atlas[4];               /**< Voxel in the atlas that is the volume's (0, 0, 0); w unused. */
+    float centre[4];              /**< View space, metres; w unused. */
+} ao_gpu_occluder;
+
+/** Textures at the host's size and at the trace's. The trace's are the full ones at scale 1. */
+typedef struct ao_targets {
+    nook_texture depth, normal, visibility;                   /**< Full size. */
+    nook_texture trace_depth, trace_normal, trace_visibility; /**< Trace size; depth and normal id 0 at scale 1. */
+    uint32_t width, height, scale;
+} ao_targets;
+
+struct nook_ao {
+    nook_gpu *gpu;
+    uint32_t width, height;
+    void (*progress)(void *user, double fraction);
+    void *progress_user;
+    ao_shared shared;
+    ao_slot slots[AO_TECHNIQUE_MAX];
+    uint32_t slot_count, current;
+    ao_targets targets;
+    nook_buffer frame, occluder_buffer, counter;
+    volume_atlas atlas;
+    ao_mesh *meshes;
+    uint32_t mesh_count, mesh_capacity, next_mesh_id;
+    nook_ao_occluder *occluders; /**< This frame's, as submitted. */
+    uint32_t occluder_count, occluder_max;
+    ao_gpu_occluder *gpu_occluders;   /**< Scratch of occluder_max. */
+    nook_ao_mesh_instance *instances; /**< Scratch of occluder_max. */
+    nook_ao_mesh_view *mesh_views;    /**< Scratch of mesh_capacity. */
+    nook_ao_statistics statistics;
+};
+
+/** Makes the textures fit width, height and scale; keeps them when they do. @return NOOK_E_MEMORY, NOOK_E_DEVICE */
+nook_result ao_targets_fit(nook_gpu *gpu, ao_targets *targets, uint32_t width, uint32_t height, uint32_t scale);
+void ao_targets_release(nook_gpu *gpu, ao_targets *targets);
+
+/** Composes this frame's marched occluders into ao->gpu_occluders. @return how many */
+uint32_t ao_collect_volumes(nook_ao *ao, const nook_matrix *view_from_world);
+/** Composes this frame's traced instances into ao->instances and ao->mesh_views. @return how many instances */
+uint32_t ao_collect_meshes(nook_ao *ao, const nook_matrix *view_from_world);
+void ao_meshes_release(nook_ao *ao);

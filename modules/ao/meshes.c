@@ -1,0 +1,90 @@
+#include "engine/core/log.h"
+#include "modules/ao/context.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static nook_result check_mesh(const float *positions, uint32_t vertex_count, const uint32_t *indices,
+                              uint32_t index_count)
+{
+    if (index_count % 3 != 0)
+        return nook_fail(NOOK_E_ARG, "mesh: %u indices are not whole triangles", index_count);
+    for (uint32_t i = 0; i < index_count; i++) {
+        if (indices[i] >= vertex_count)
+            return nook_fail(NOOK_E_ARG, "mesh: index %u of %u vertices", indices[i], vertex_count);
+    }
+    for (size_t i = 0; i < (size_t)vertex_count * 3; i++) {
+        if (!isfinite(positions[i]))
+            return nook_fail(NOOK_E_ARG, "mesh: vertex %zu is not finite", i / 3);
+    }
+    return NOOK_OK;
+}
+
+/** Copies `size` bytes; never NULL for 0 bytes. */
+static void *copy_of(const void *bytes, size_t size)
+{
+    void *copy = malloc(size ? size : 1);
+    if (copy && size)
+        memcpy(copy, bytes, size);
+    return copy;
+}
+
+static int reserve_mesh(nook_ao *ao)
+{
+    if (ao->mesh_count < ao->mesh_capacity)
+        return 1;
+    uint32_t capacity = ao->mesh_capacity ? ao->mesh_capacity * 2 : 16;
+    ao_mesh *meshes = realloc(ao->meshes, capacity * sizeof *meshes);
+    if (meshes)
+        ao->meshes = meshes;
+    nook_ao_mesh_view *views = realloc(ao->mesh_views, capacity * sizeof *views);
+    if (views)
+        ao->mesh_views = views;
+    if (!meshes || !views)
+        return 0;
+    ao->mesh_capacity = capacity;
+    return 1;
+}
+
+nook_result nook_ao_add_mesh(nook_ao *ao, const float *positions, uint32_t vertex_count, const uint32_t *indices,
+                             uint32_t index_count, nook_ao_mesh *out_mesh)
+{
+    nook_result result = check_mesh(positions, vertex_count, indices, index_count);
+    if (result != NOOK_OK)
+        return result;
+    ao_mesh mesh = { .positions = copy_of(positions, (size_t)vertex_count * 3 * sizeof *positions),
+                     .indices = copy_of(indices, (size_t)index_count * sizeof *indices) };
+    if (!mesh.positions || !mesh.indices || !reserve_mesh(ao)) {
+        free(mesh.positions);
+        free(mesh.indices);
+        return nook_fail(NOOK_E_MEMORY, "mesh: no memory for %u triangles", index_count / 3);
+    }
+    mesh.view = (nook_ao_mesh_view){ mesh.positions, mesh.indices, vertex_count, index_count, ao->next_mesh_id++ };
+    ao->meshes[ao->mesh_count++] = mesh;
+    out_mesh->id = mesh.view.id;
+    return NOOK_OK;
+}
+
+void nook_ao_remove_mesh(nook_ao *ao, nook_ao_mesh mesh)
+{
+    for (uint32_t i = 0; i < ao->mesh_count; i++) {
+        if (ao->meshes[i].view.id != mesh.id)
+            continue;
+        free(ao->meshes[i].positions);
+        free(ao->meshes[i].indices);
+        ao->meshes[i] = ao->meshes[--ao->mesh_count];
+        return;
+    }
+}
+
+void ao_meshes_release(nook_ao *ao)
+{
+    for (uint32_t i = 0; i < ao->mesh_count; i++) {
+        free(ao->meshes[i].positions);
+        free(ao->meshes[i].indices);
+    }
+    free(ao->meshes);
+    free(ao->mesh_views);
+    ao->meshes = NULL;
+    ao->mesh_views = NULL;
+}

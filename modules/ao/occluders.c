@@ -1,0 +1,102 @@
+#include "modules/ao/context.h"
+#include <math.h>
+#include <string.h>
+
+static nook_matrix matrix_of(const double m[16])
+{
+    nook_matrix r;
+    memcpy(r.m, m, sizeof r.m);
+    return r;
+}
+
+static void set_rows(const nook_matrix *a, float rows[3][4])
+{
+    for (int row = 0; row < 3; row++) {
+        for (int column = 0; column < 4; column++)
+            rows[row][column] = (float)a->m[column * 4 + row];
+    }
+}
+
+/** The inverse transpose of A takes normals; with A's inverse at hand it is only a transposition. */
+static void set_normal_rows(const nook_matrix *inverse, float rows[3][4])
+{
+    for (int row = 0; row < 3; row++) {
+        for (int column = 0; column < 3; column++)
+            rows[row][column] = (float)inverse->m[row * 4 + column];
+        rows[row][3] = 0.0f;
+    }
+}
+
+static void set_sphere(const nook_matrix *view_from_voxel, const nook_volume_info *info, ao_gpu_occluder *out)
+{
+    const double middle[3] = { 0.5 * info->width, 0.5 * info->height, 0.5 * info->depth };
+    double centre[3], radius = 0.0;
+    nook_matrix_apply_point(view_from_voxel, middle, centre);
+    for (int corner = 0; corner < 4; corner++) { /* opposite corners are equally far */
+        double half[3] = { middle[0], corner & 1 ? -middle[1] : middle[1], corner & 2 ? -middle[2] : middle[2] };
+        nook_matrix_apply_vector(view_from_voxel, half, half);
+        double length = sqrt(half[0] * half[0] + half[1] * half[1] + half[2] * half[2]);
+        radius = length > radius ? length : radius;
+    }
+    for (int axis = 0; axis < 3; axis++)
+        out->centre[axis] = (float)centre[axis];
+    out->size[3] = (float)radius;
+}
+
+static int compose(const atlas_entry *entry, const nook_matrix *view_from_mesh, ao_gpu_occluder *out)
+{
+    const nook_volume_info *info = &entry->info;
+    nook_matrix scale = nook_matrix_scale(info->voxel_size, info->voxel_size, info->voxel_size);
+    nook_matrix origin = nook_matrix_translation(info->origin[0], info->origin[1], info->origin[2]);
+    nook_matrix mesh_from_voxel = nook_matrix_multiply(&origin, &scale);
+    nook_matrix view_from_voxel = nook_matrix_multiply(view_from_mesh, &mesh_from_voxel), voxel_from_view;
+    if (!nook_matrix_inverse_affine(&view_from_voxel, &voxel_from_view))
+        return 0;
+    *out = (ao_gpu_occluder){ .size = { (float)info->width, (float)info->height, (float)info->depth, 0.0f } };
+    set_rows(&voxel_from_view, out->voxel_from_view);
+    set_normal_rows(&view_from_voxel, out->normal_from_view);
+    for (int axis = 0; axis < 3; axis++)
+        out->atlas[axis] = (float)entry->box.origin[axis];
+    set_sphere(&view_from_voxel, info, out);
+    return 1;
+}
+
+uint32_t ao_collect_volumes(nook_ao *ao, const nook_matrix *view_from_world)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < ao->occluder_count; i++) {
+        const nook_ao_occluder *occluder = &ao->occluders[i];
+        const atlas_entry *entry = volume_atlas_find(&ao->atlas, occluder->volume.id);
+        if (!entry)
+            continue;
+        nook_matrix world_from_mesh = matrix_of(occluder->world_from_mesh);
+        nook_matrix view_from_mesh = nook_matrix_multiply(view_from_world, &world_from_mesh);
+        count += (uint32_t)compose(entry, &view_from_mesh, &ao->gpu_occluders[count]);
+    }
+    return count;
+}
+
+static uint32_t mesh_index(const nook_ao *ao, uint32_t id)
+{
+    for (uint32_t i = 0; i < ao->mesh_count; i++) {
+        if (ao->meshes[i].view.id == id)
+            return i;
+    }
+    return UINT32_MAX;
+}
+
+uint32_t ao_collect_meshes(nook_ao *ao, const nook_matrix *view_from_world)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < ao->mesh_count; i++)
+        ao->mesh_views[i] = ao->meshes[i].view;
+    for (uint32_t i = 0; i < ao->occluder_count; i++) {
+        uint32_t mesh = mesh_index(ao, ao->occluders[i].mesh.id);
+        nook_matrix world_from_mesh = matrix_of(ao->occluders[i].world_from_mesh), unused;
+        if (mesh == UINT32_MAX || !nook_matrix_inverse_affine(&world_from_mesh, &unused))
+            continue;
+        ao->instances[count++] =
+            (nook_ao_mesh_instance){ mesh, nook_matrix_multiply(view_from_world, &world_from_mesh) };
+    }
+    return count;
+}

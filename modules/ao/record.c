@@ -1,0 +1,252 @@
+#include "engine/core/log.h"
+#include "modules/ao/context.h"
+#include "modules/ao/frame_block.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static nook_texture host_texture(nook_ao_texture texture)
+{
+    return (nook_texture){
+        .id = texture.native, .target = GL_TEXTURE_2D, .width = texture.width, .height = texture.height, .depth = 1
+    };
+}
+
+/** 1, 2 or 4; truth is always traced at full size. */
+static uint32_t trace_scale(const nook_ao *ao, const nook_ao_technique *technique)
+{
+    return technique->exact ? 1u : 1u << ao->shared.scale;
+}
+
+static nook_result check_frame(const nook_ao *ao, const nook_ao_frame *frame)
+{
+    const double *p = frame->clip_from_view;
+    if (ao->slot_count == 0)
+        return nook_fail(NOOK_E_ARG, "nook_ao_record: add a technique first");
+    if (frame->depth.native == 0 || frame->depth.width != ao->width || frame->depth.height != ao->height)
+        return nook_fail(NOOK_E_ARG, "nook_ao_record: depth is %ux%u, the context %ux%u", frame->depth.width,
+                         frame->depth.height, ao->width, ao->height);
+    if (frame->normal.native && (frame->normal.width != ao->width || frame->normal.height != ao->height))
+        return nook_fail(NOOK_E_ARG, "nook_ao_record: normals are %ux%u, the context %ux%u", frame->normal.width,
+                         frame->normal.height, ao->width, ao->height);
+    if (p[11] != -1.0 || p[15] != 0.0 || !(fabs(p[0]) > 0.0) || !(fabs(p[5]) > 0.0) || p[14] == 0.0)
+        return nook_fail(NOOK_E_ARG, "nook_ao_record: clip_from_view is not a perspective with w = -z");
+    return NOOK_OK;
+}
+
+/**
+ * From clip_from_view (column-major p): ndc = (p0 x + p8 z) / -z, so x / -z = (ndc + p8) / p0; and device depth
+ * d = p14 / distance - p10, so distance = p14 / (d + p10). p14 > 0 means that near is larger: reversed-Z.
+ */
+static void set_projection(const double p[16], frame_block *block)
+{
+    block->ray_scale[0] = (float)(1.0 / p[0]);
+    block->ray_scale[1] = (float)(1.0 / p[5]);
+    block->ray_offset[0] = (float)(p[8] / p[0]);
+    block->ray_offset[1] = (float)(p[9] / p[5]);
+    block->depth_to_distance[0] = (float)p[14];
+    block->depth_to_distance[1] = (float)p[10];
+    block->depth_background = p[14] > 0.0 ? 0.0f : 1.0f;
+}
+
+static frame_block make_block(const nook_ao *ao, const nook_ao_frame *frame, uint32_t scale, uint32_t occluder_count)
+{
+    const ao_shared *shared = &ao->shared;
+    frame_block block = {
+        .size = { (int32_t)nook_groups(ao->width, scale), (int32_t)nook_groups(ao->height, scale) },
+        .full_size = { (int32_t)ao->width, (int32_t)ao->height },
+        .scale = (int32_t)scale,
+        .r_max = shared->r_max,
+        .falloff = shared->falloff,
+        .falloff_tau = shared->falloff_tau,
+        .seed = frame->index,
+        .occluder_count = (int32_t)occluder_count,
+        .counting = shared->count,
+        .filter_radius = shared->filter_radius,
+        .filter_depth = shared->filter_depth,
+        .filter_normal = shared->filter_normal,
+        .has_normal = frame->normal.native != 0,
+    };
+    set_projection(frame->clip_from_view, &block);
+    for (int column = 0; column < 3; column++) {
+        for (int row = 0; row < 3; row++)
+            block.view_from_world[column * 4 + row] = (float)frame->view_from_world[column * 4 + row];
+    }
+    return block;
+}
+
+static nook_result dispatch_prepare(nook_ao *ao, const nook_ao_frame *frame)
+{
+    nook_program program;
+    nook_result result = nook_program_compute(ao->gpu, "shaders/ao/prepare.comp.glsl", "", &program);
+    if (result != NOOK_OK)
+        return result;
+    nook_bind_uniform(ao->gpu, 0, ao->frame);
+    nook_bind_texture(ao->gpu, 0, host_texture(frame->depth));
+    nook_bind_texture(ao->gpu, 1, host_texture(frame->normal.native ? frame->normal : frame->depth));
+    nook_bind_image(ao->gpu, 0, ao->targets.depth, GL_WRITE_ONLY);
+    nook_bind_image(ao->gpu, 1, ao->targets.normal, GL_WRITE_ONLY);
+    nook_dispatch(ao->gpu, program, nook_groups(ao->width, 16), nook_groups(ao->height, 8), 1);
+    return NOOK_OK;
+}
+
+static nook_result dispatch_pick(nook_ao *ao)
+{
+    nook_program program;
+    nook_result result = nook_program_compute(ao->gpu, "shaders/ao/pick.comp.glsl", "", &program);
+    if (result != NOOK_OK)
+        return result;
+    const ao_targets *targets = &ao->targets;
+    nook_bind_texture(ao->gpu, 0, targets->depth);
+    nook_bind_texture(ao->gpu, 1, targets->normal);
+    nook_bind_image(ao->gpu, 0, targets->trace_depth, GL_WRITE_ONLY);
+    nook_bind_image(ao->gpu, 1, targets->trace_normal, GL_WRITE_ONLY);
+    nook_dispatch(ao->gpu, program, nook_groups(targets->trace_depth.width, 16),
+                  nook_groups(targets->trace_depth.height, 8), 1);
+    return NOOK_OK;
+}
+
+static nook_result dispatch_filter(nook_ao *ao)
+{
+    nook_program program;
+    nook_result result = nook_program_compute(ao->gpu, "shaders/ao/filter.comp.glsl", "", &program);
+    if (result != NOOK_OK)
+        return result;
+    const ao_targets *targets = &ao->targets;
+    nook_bind_uniform(ao->gpu, 0, ao->frame);
+    nook_bind_texture(ao->gpu, 0, targets->depth);
+    nook_bind_texture(ao->gpu, 1, targets->normal);
+    nook_bind_texture(ao->gpu, 2, targets->scale > 1 ? targets->trace_depth : targets->depth);
+    nook_bind_texture(ao->gpu, 3, targets->scale > 1 ? targets->trace_normal : targets->normal);
+    nook_bind_texture(ao->gpu, 4, targets->trace_visibility);
+    nook_bind_image(ao->gpu, 0, targets->visibility, GL_WRITE_ONLY);
+    nook_dispatch(ao->gpu, program, nook_groups(ao->width, 16), nook_groups(ao->height, 8), 1);
+    return NOOK_OK;
+}
+
+static nook_result upload_inputs(nook_ao *ao, const ao_slot *slot, const nook_ao_frame *frame, uint32_t scale)
+{
+    static const uint32_t zero[2] = { 0, 0 };
+    nook_result result = volume_atlas_flush(&ao->atlas);
+    if (result != NOOK_OK)
+        return result;
+    frame_block block = make_block(ao, frame, scale, ao->statistics.occluders);
+    nook_buffer_update(ao->gpu, ao->frame, 0, &block, sizeof block);
+    nook_buffer_update(ao->gpu, ao->counter, 0, zero, sizeof zero);
+    if (slot->technique->params_size)
+        nook_buffer_update(ao->gpu, slot->buffer, 0, slot->params, slot->technique->params_size);
+    if (ao->statistics.occluders)
+        nook_buffer_update(ao->gpu, ao->occluder_buffer, 0, ao->gpu_occluders,
+                           ao->statistics.occluders * sizeof *ao->gpu_occluders);
+    return NOOK_OK;
+}
+
+static nook_ao_pass make_pass(nook_ao *ao, const ao_slot *slot, const nook_ao_frame *frame, uint32_t instances,
+                              int direct)
+{
+    const ao_targets *targets = &ao->targets;
+    int full = targets->scale == 1;
+    frame_block projection = { 0 };
+    set_projection(frame->clip_from_view, &projection);
+    return (nook_ao_pass){
+        .gpu = ao->gpu,
+        .depth = full ? targets->depth : targets->trace_depth,
+        .normal = full ? targets->normal : targets->trace_normal,
+        .visibility = direct ? targets->visibility : targets->trace_visibility,
+        .frame = ao->frame,
+        .params = slot->buffer,
+        .counter = ao->counter,
+        .counting = ao->shared.count,
+        .width = targets->trace_visibility.width,
+        .height = targets->trace_visibility.height,
+        .r_max = ao->shared.r_max,
+        .falloff = ao->shared.falloff,
+        .falloff_tau = ao->shared.falloff_tau,
+        .ray_scale = { projection.ray_scale[0], projection.ray_scale[1] },
+        .ray_offset = { projection.ray_offset[0], projection.ray_offset[1] },
+        .seed = frame->index,
+        .progress = ao->progress,
+        .progress_user = ao->progress_user,
+        .volume_atlas = ao->atlas.texture,
+        .occluders = ao->occluder_buffer,
+        .occluder_count = ao->statistics.occluders,
+        .meshes = ao->mesh_views,
+        .mesh_count = ao->mesh_count,
+        .instances = ao->instances,
+        .instance_count = instances,
+    };
+}
+
+static void bind_pass(const nook_ao_pass *pass)
+{
+    nook_bind_uniform(pass->gpu, 0, pass->frame);
+    nook_bind_uniform(pass->gpu, 1, pass->params);
+    nook_bind_texture(pass->gpu, 0, pass->depth);
+    nook_bind_texture(pass->gpu, 1, pass->normal);
+    nook_bind_texture(pass->gpu, 2, pass->volume_atlas);
+    nook_bind_storage(pass->gpu, 3, pass->occluders);
+    nook_bind_storage(pass->gpu, 7, pass->counter);
+    nook_bind_image(pass->gpu, 0, pass->visibility, GL_WRITE_ONLY);
+}
+
+nook_result nook_ao_record(nook_ao *ao, const nook_ao_frame *frame)
+{
+    nook_result result = check_frame(ao, frame);
+    if (result != NOOK_OK)
+        return result;
+    const ao_slot *slot = &ao->slots[ao->current];
+    const nook_ao_technique *technique = slot->technique;
+    uint32_t scale = trace_scale(ao, technique), instances = 0;
+    int direct = scale == 1 && (technique->exact || ao->shared.filter == 0);
+    nook_matrix view_from_world;
+    memcpy(view_from_world.m, frame->view_from_world, sizeof view_from_world.m);
+    ao->statistics.occluders = technique->inputs & NOOK_AO_IN_VOLUMES ? ao_collect_volumes(ao, &view_from_world) : 0;
+    if (technique->inputs & NOOK_AO_IN_MESHES)
+        instances = ao_collect_meshes(ao, &view_from_world);
+
+    result = ao_targets_fit(ao->gpu, &ao->targets, ao->width, ao->height, scale);
+    if (result == NOOK_OK)
+        result = upload_inputs(ao, slot, frame, scale);
+    if (result == NOOK_OK)
+        result = dispatch_prepare(ao, frame);
+    if (result == NOOK_OK && scale > 1)
+        result = dispatch_pick(ao);
+    if (result != NOOK_OK)
+        return result;
+    nook_ao_pass pass = make_pass(ao, slot, frame, instances, direct);
+    bind_pass(&pass);
+    result = technique->record(slot->state, slot->params, &pass);
+    if (result == NOOK_OK && !direct)
+        result = dispatch_filter(ao);
+    return result;
+}
+
+/** Full-size pixels with geometry. */
+static uint64_t count_geometry(nook_ao *ao)
+{
+    size_t count = (size_t)ao->targets.width * ao->targets.height;
+    uint64_t seen = 0;
+    float *depth = count ? malloc(count * sizeof *depth) : NULL;
+    if (!depth)
+        return 0;
+    nook_texture_read(ao->gpu, ao->targets.depth, GL_RED, GL_FLOAT, depth, count * sizeof *depth);
+    for (size_t i = 0; i < count; i++)
+        seen += depth[i] > 0.0f;
+    free(depth);
+    return seen;
+}
+
+void nook_ao_get_statistics(nook_ao *ao, nook_ao_statistics *out_statistics)
+{
+    uint32_t counted[2] = { 0, 0 };
+    *out_statistics = ao->statistics;
+    out_statistics->volume_bytes = volume_atlas_bytes(&ao->atlas);
+    out_statistics->fetches_per_pixel = 0.0;
+    if (!ao->shared.count)
+        return;
+    ao->gpu->gl->MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    ao->gpu->gl->GetNamedBufferSubData(ao->counter.id, 0, sizeof counted, counted);
+    uint64_t pixels = count_geometry(ao);
+    if (pixels)
+        out_statistics->fetches_per_pixel = ((double)counted[1] * 4294967296.0 + counted[0]) / (double)pixels;
+}

@@ -1,0 +1,203 @@
+#include "modules/ao/volume_atlas.h"
+#include "engine/core/log.h"
+#include <assert.h>
+#include <stdlib.h>
+#include <string.h>
+
+void volume_atlas_init(volume_atlas *atlas, nook_gpu *gpu)
+{
+    *atlas = (volume_atlas){ .gpu = gpu, .next_id = 1 };
+}
+
+void volume_atlas_release(volume_atlas *atlas)
+{
+    for (uint32_t i = 0; i < atlas->entry_count; i++)
+        free(atlas->entries[i].pending);
+    free(atlas->entries);
+    free(atlas->free_boxes);
+    if (atlas->gpu)
+        nook_texture_destroy(atlas->gpu, &atlas->texture);
+    *atlas = (volume_atlas){ 0 };
+}
+
+static uint64_t box_voxels(const uint32_t size[3])
+{
+    return (uint64_t)size[0] * size[1] * size[2];
+}
+
+static int box_holds(const atlas_box *box, const uint32_t size[3])
+{
+    return box->size[0] >= size[0] && box->size[1] >= size[1] && box->size[2] >= size[2];
+}
+
+/** Grows an array of `item_size` so that one more fits. @return 0 when there is no memory */
+static int reserve_one(void **items, uint32_t count, uint32_t *capacity, size_t item_size)
+{
+    if (count < *capacity)
+        return 1;
+    uint32_t wanted = *capacity ? *capacity * 2 : 16;
+    void *grown = realloc(*items, wanted * item_size);
+    if (!grown)
+        return 0;
+    *items = grown;
+    *capacity = wanted;
+    return 1;
+}
+
+/** Empty boxes are dropped; without memory the space is lost until the atlas is released, nothing else. */
+static void add_free_box(volume_atlas *atlas, const atlas_box *box)
+{
+    if (box_voxels(box->size) == 0)
+        return;
+    if (reserve_one((void **)&atlas->free_boxes, atlas->free_count, &atlas->free_capacity, sizeof *box))
+        atlas->free_boxes[atlas->free_count++] = *box;
+}
+
+/** Takes `size` from the corner of the smallest free box that holds it; the rest is cut into three free boxes. */
+static int take_free_box(volume_atlas *atlas, const uint32_t size[3], atlas_box *out)
+{
+    uint32_t best = UINT32_MAX;
+    for (uint32_t i = 0; i < atlas->free_count; i++) {
+        const atlas_box *box = &atlas->free_boxes[i];
+        if (box_holds(box, size) &&
+            (best == UINT32_MAX || box_voxels(box->size) < box_voxels(atlas->free_boxes[best].size)))
+            best = i;
+    }
+    if (best == UINT32_MAX)
+        return 0;
+    atlas_box box = atlas->free_boxes[best];
+    atlas->free_boxes[best] = atlas->free_boxes[--atlas->free_count];
+    *out = (atlas_box){ { box.origin[0], box.origin[1], box.origin[2] }, { size[0], size[1], size[2] } };
+    atlas_box rest = box;
+    for (int axis = 0; axis < 3; axis++) {
+        atlas_box cut = rest;
+        cut.origin[axis] += size[axis];
+        cut.size[axis] -= size[axis];
+        add_free_box(atlas, &cut);
+        rest.size[axis] = size[axis];
+    }
+    return 1;
+}
+
+static void extend(volume_atlas *atlas, int axis, uint32_t by)
+{
+    atlas_box slab = { { 0, 0, 0 }, { atlas->size[0], atlas->size[1], atlas->size[2] } };
+    slab.origin[axis] = atlas->size[axis];
+    slab.size[axis] = by;
+    atlas->size[axis] += by;
+    add_free_box(atlas, &slab);
+}
+
+/** Extends the atlas along the axis that costs least, so that a box of `size` fits. @return 0: the device's limit */
+static int grow_for(volume_atlas *atlas, const uint32_t size[3])
+{
+    int best = -1;
+    uint64_t best_voxels = UINT64_MAX;
+    for (int axis = 0; axis < 3; axis++) {
+        uint32_t grown[3];
+        int allowed = 1;
+        for (int k = 0; k < 3; k++) {
+            grown[k] = atlas->size[k] > size[k] ? atlas->size[k] : size[k];
+            if (k == axis)
+                grown[k] = atlas->size[k] + size[k];
+            allowed = allowed && grown[k] <= atlas->gpu->max_texture_3d_size;
+        }
+        if (allowed && box_voxels(grown) < best_voxels) {
+            best = axis;
+            best_voxels = box_voxels(grown);
+        }
+    }
+    if (best < 0)
+        return 0;
+    for (int k = 0; k < 3; k++) {
+        if (k != best && atlas->size[k] < size[k])
+            extend(atlas, k, size[k] - atlas->size[k]);
+    }
+    extend(atlas, best, size[best]);
+    return 1;
+}
+
+nook_result volume_atlas_add(volume_atlas *atlas, nook_volume *volume, uint32_t *out_id)
+{
+    const uint32_t size[3] = { volume->info.width, volume->info.height, volume->info.depth };
+    if (!reserve_one((void **)&atlas->entries, atlas->entry_count, &atlas->entry_capacity, sizeof *atlas->entries))
+        return nook_fail(NOOK_E_MEMORY, "no memory for another volume");
+    atlas_entry entry = { .id = atlas->next_id, .info = volume->info, .pending = volume->voxels };
+    if (!take_free_box(atlas, size, &entry.box) && !(grow_for(atlas, size) && take_free_box(atlas, size, &entry.box)))
+        return nook_fail(NOOK_E_MEMORY, "a volume of %ux%ux%u voxels does not fit any more: bake at a lower resolution",
+                         size[0], size[1], size[2]);
+    atlas->next_id++;
+    atlas->entries[atlas->entry_count++] = entry;
+    *volume = (nook_volume){ 0 };
+    *out_id = entry.id;
+    return NOOK_OK;
+}
+
+void volume_atlas_remove(volume_atlas *atlas, uint32_t id)
+{
+    for (uint32_t i = 0; i < atlas->entry_count; i++) {
+        if (atlas->entries[i].id != id)
+            continue;
+        add_free_box(atlas, &atlas->entries[i].box);
+        free(atlas->entries[i].pending);
+        atlas->entries[i] = atlas->entries[--atlas->entry_count];
+        return;
+    }
+}
+
+const atlas_entry *volume_atlas_find(const volume_atlas *atlas, uint32_t id)
+{
+    for (uint32_t i = 0; i < atlas->entry_count; i++) {
+        if (atlas->entries[i].id == id)
+            return &atlas->entries[i];
+    }
+    return NULL;
+}
+
+/** Replaces the texture by a larger one and copies what was there. */
+static nook_result grow_texture(volume_atlas *atlas)
+{
+    nook_texture old = atlas->texture, grown;
+    if (old.id && old.width == atlas->size[0] && old.height == atlas->size[1] && old.depth == atlas->size[2])
+        return NOOK_OK;
+    nook_gpu *gpu = atlas->gpu;
+    nook_result result =
+        nook_texture_create_3d(gpu, GL_R8, atlas->size[0], atlas->size[1], atlas->size[2], GL_LINEAR, &grown);
+    if (result != NOOK_OK)
+        return result;
+    if (old.id) {
+        gpu->gl->CopyImageSubData(old.id, GL_TEXTURE_3D, 0, 0, 0, 0, grown.id, GL_TEXTURE_3D, 0, 0, 0, 0,
+                                  (GLsizei)old.width, (GLsizei)old.height, (GLsizei)old.depth);
+        nook_texture_destroy(gpu, &old);
+    }
+    atlas->texture = grown;
+    return NOOK_OK;
+}
+
+nook_result volume_atlas_flush(volume_atlas *atlas)
+{
+    if (atlas->entry_count == 0)
+        return NOOK_OK;
+    nook_result result = grow_texture(atlas);
+    if (result != NOOK_OK)
+        return result;
+    const nook_gl *gl = atlas->gpu->gl;
+    for (uint32_t i = 0; i < atlas->entry_count; i++) {
+        atlas_entry *entry = &atlas->entries[i];
+        if (!entry->pending)
+            continue;
+        const uint32_t *at = entry->box.origin, *size = entry->box.size;
+        gl->PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+        gl->TextureSubImage3D(atlas->texture.id, 0, (GLint)at[0], (GLint)at[1], (GLint)at[2], (GLsizei)size[0],
+                              (GLsizei)size[1], (GLsizei)size[2], GL_RED, GL_UNSIGNED_BYTE, entry->pending);
+        gl->PixelStorei(GL_UNPACK_ALIGNMENT, 4);
+        free(entry->pending);
+        entry->pending = NULL;
+    }
+    return NOOK_OK;
+}
+
+uint64_t volume_atlas_bytes(const volume_atlas *atlas)
+{
+    return box_voxels(atlas->size);
+}
