@@ -1,0 +1,13 @@
+/** direction_texture.h - the directions of sampling.h on the GPU, for shaders/ao/directions.glsl. */
+#pragma once
+#include "engine/gpu/gpu.h"
+
+typedef struct nook_direction_texture {
+    nook_texture texture;
+    uint32_t rays, seed;
+} nook_direction_texture;
+
+/** Makes it hold `rays` per block for `seed`; does nothing when it does. Zero-initialise before the first call.
+    @return NOOK_E_MEMORY */
+nook_result nook_direction_texture_fit(nook_direction_texture *directions, nook_gpu *gpu, uint32_t rays, uint32_t seed);
+void nook_direction_texture_release(nook_direction_texture *directions, nook_gpu *gpu);

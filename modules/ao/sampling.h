@@ -1,0 +1,27 @@
+/**
+ * sampling.h - ray directions for hemispheres around +Z, cosine weighted: A = mean of rho over them (no cosine, no factor).
+ *
+ * Points of the (0,2)-Sobol sequence in 16 consecutive blocks: the pixels of a 4x4 tile take one block each, so that a
+ * tile together holds 16 times as many jointly stratified rays. A digital shift by the seed keeps the stratification.
+ */
+#pragma once
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum { NOOK_DIRECTION_BLOCKS = 16 };
+
+/** Point `index` of the (0,2)-sequence, each coordinate in (0, 1), shifted by `seed`. */
+void nook_sobol_point(uint32_t index, uint32_t seed, float out_point[2]);
+
+/** Unit direction in the +Z hemisphere from a point of the unit square; density cos / pi. */
+void nook_cosine_direction(const float point[2], float out_direction[3]);
+
+/** Fills 16 * rays directions as xyz and 0; block b starts at out + b * rays * 4. */
+void nook_fill_directions(uint32_t rays, uint32_t seed, float *out);
+
+#ifdef __cplusplus
+}
+#endif

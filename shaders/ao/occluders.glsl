@@ -1,0 +1,53 @@
+#pragma once
+// This frame's volumes: struct ao_gpu_occluder of modules/ao/context.h. Voxel coordinates: (0, 0, 0) at the outer corner of
+// the volume, one unit a voxel.
+#include "ao/frame.glsl"
+
+struct Occluder {
+    vec4 voxel_from_view[3];  // rows
+    vec4 normal_from_view[3]; // rows of the inverse transpose
+    vec4 size;                // voxels; w: bounding radius, metres
+    vec4 atlas;               // voxel of the atlas that is our (0, 0, 0)
+    vec4 centre;              // view space
+};
+layout(std430, binding = 3) readonly buffer Occluders {
+    Occluder occluders[];
+};
+layout(binding = 2) uniform sampler3D volume_atlas; // linear filtering
+
+// The filtered volume is 0 outside of [MARGIN, size - MARGIN]: the outermost voxels are empty.
+const float MARGIN = 0.5;
+
+vec3 to_voxel(Occluder o, vec3 position)
+{
+    vec4 p = vec4(position, 1.0);
+    return vec3(dot(o.voxel_from_view[0], p), dot(o.voxel_from_view[1], p), dot(o.voxel_from_view[2], p));
+}
+
+vec3 direction_to_voxel(Occluder o, vec3 d)
+{
+    return vec3(dot(o.voxel_from_view[0].xyz, d), dot(o.voxel_from_view[1].xyz, d), dot(o.voxel_from_view[2].xyz, d));
+}
+
+// Not of unit length: 1 / its length is how many voxels along the voxel-space normal one metre along the view normal is.
+vec3 normal_to_voxel(Occluder o, vec3 n)
+{
+    return vec3(dot(o.normal_from_view[0].xyz, n), dot(o.normal_from_view[1].xyz, n), dot(o.normal_from_view[2].xyz, n));
+}
+
+// Is the point within r_max of the volume, axis by axis (the paper's extended box)?
+bool is_near(Occluder o, vec3 voxel)
+{
+    vec3 reach = frame.r_max * vec3(length(o.voxel_from_view[0].xyz), length(o.voxel_from_view[1].xyz),
+                                    length(o.voxel_from_view[2].xyz));
+    return all(greaterThan(voxel, MARGIN - reach)) && all(lessThan(voxel, o.size.xyz - MARGIN + reach));
+}
+
+// Part of a ray inside the volume: x = enter, y = leave, metres; empty when x >= y.
+vec2 clip_to_volume(Occluder o, vec3 voxel, vec3 d)
+{
+    vec3 safe = mix(d, vec3(1e-20), lessThan(abs(d), vec3(1e-20)));
+    vec3 a = (MARGIN - voxel) / safe, b = (o.size.xyz - MARGIN - voxel) / safe;
+    vec3 near = min(a, b), far = max(a, b);
+    return vec2(max(max(near.x, near.y), near.z), min(min(far.x, far.y), far.z));
+}

@@ -1,0 +1,54 @@
+#pragma once
+// Per work group of 8x8 pixels: which occluders can reach any of its pixels. Cost then follows covered pixels and near
+// occluders, not objects times screen. Lists are made for CHUNK occluders at a time, so that none is ever left out.
+#include "ao/occluders.glsl"
+
+const int TILE_SIZE = 8;
+const int CHUNK = 256;
+shared uint tile_depth_min, tile_depth_max; // as bits: positive floats sort like integers
+shared uint tile_count;
+shared int tile_items[CHUNK];
+vec3 tile_box_min, tile_box_max; // view space, the same in every invocation
+
+// Call once, in uniform control flow; `depth` is 0 without geometry. @return false when no pixel of the tile has geometry
+bool tile_begin(float depth)
+{
+    if (gl_LocalInvocationIndex == 0u) {
+        tile_depth_min = 0x7f7fffffu;
+        tile_depth_max = 0u;
+    }
+    barrier();
+    if (depth > 0.0) {
+        atomicMin(tile_depth_min, floatBitsToUint(depth));
+        atomicMax(tile_depth_max, floatBitsToUint(depth));
+    }
+    barrier();
+    float nearest = uintBitsToFloat(tile_depth_min), farthest = uintBitsToFloat(tile_depth_max);
+    ivec2 first = ivec2(gl_WorkGroupID.xy) * TILE_SIZE, last = min(first + TILE_SIZE - 1, frame.size - 1);
+    vec3 a = full_ray(vec2(full_pixel(first))), b = full_ray(vec2(full_pixel(last)));
+    tile_box_min = min(min(a * nearest, a * farthest), min(b * nearest, b * farthest));
+    tile_box_max = max(max(a * nearest, a * farthest), max(b * nearest, b * farthest));
+    return farthest > 0.0;
+}
+
+bool tile_reaches(Occluder o)
+{
+    vec3 outside = max(max(tile_box_min - o.centre.xyz, o.centre.xyz - tile_box_max), vec3(0.0));
+    float reach = o.size.w + frame.r_max;
+    return dot(outside, outside) <= reach * reach;
+}
+
+// Lists the occluders [first, first + CHUNK) that reach the tile. Uniform control flow.
+void tile_list(int first)
+{
+    barrier();
+    if (gl_LocalInvocationIndex == 0u)
+        tile_count = 0u;
+    barrier();
+    int last = min(first + CHUNK, frame.occluder_count);
+    for (int i = first + int(gl_LocalInvocationIndex); i < last; i += TILE_SIZE * TILE_SIZE) {
+        if (tile_reaches(occluders[i]))
+            tile_items[atomicAdd(tile_count, 1u)] = i;
+    }
+    barrier();
+}

@@ -1,0 +1,152 @@
+// Technique "volume": Papaioannou, Menexi, Papadopoulos 2010, section 5.1, errata C2, C5, C7, C8, C9 of docs/techniques.md.
+#version 450 core
+#include "ao/frame.glsl"
+#include "ao/falloff.glsl"
+#include "ao/counter.glsl"
+#include "ao/directions.glsl"
+#include "ao/tile_list.glsl"
+#include "nook/octahedral.glsl"
+#include "nook/params.glsl"
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(std140, binding = 1) uniform Params {
+#include "modules/ao_volume/params.def"
+} params;
+layout(binding = 0) uniform sampler2D depth_texture;
+layout(binding = 1) uniform sampler2D normal_texture;
+layout(binding = 0, r32f) uniform writeonly image2D visibility_image;
+
+const int BATCH = 8;                  // rays whose nearest hits are held in registers
+const float FILTER_PRECISION = 0.015; // voxels: hardware interpolates with 8-bit weights, three axes of 1/256 and a little
+const float NO_HIT = 1e30;
+
+// A fragment as one occluder's voxels see it.
+struct Receiver {
+    vec3 voxel;       // position
+    float guard;      // metres along the view normal up to which the fragment's own voxels reach
+    bool can_see;     // some ray can hit
+};
+
+// C7: voxels made by the fragment's own plane reach ((|nx|+|ny|+|nz|)/2 + 1 - threshold) voxels above it in the filtered
+// volume, n in voxel space. C8: rays that do not leave that slab within r_max count as misses.
+Receiver receive(Occluder o, vec3 position, vec3 normal)
+{
+    Receiver r;
+    r.voxel = to_voxel(o, position);
+    vec3 n = normal_to_voxel(o, normal);
+    float stretch = length(n);
+    n /= stretch;
+    float slab = 0.5 * (abs(n.x) + abs(n.y) + abs(n.z)) + (1.0 - params.threshold) + FILTER_PRECISION;
+    r.guard = slab * stretch;
+    // Highest point of the volume above the fragment's plane, voxels: below the slab there is nothing to hit.
+    float top = dot(n, 0.5 * o.size.xyz - r.voxel) + dot(abs(n), 0.5 * o.size.xyz - MARGIN);
+    r.can_see = is_near(o, r.voxel) && top > slab && r.guard < frame.r_max;
+    return r;
+}
+
+// Distance of the first hit along d (unit, view space) before `limit`, or NO_HIT.
+float march(Occluder o, Receiver r, vec3 d, float cosine, float limit, float jitter, inout uint fetches)
+{
+    vec3 dv = direction_to_voxel(o, d);
+    vec2 range = clip_to_volume(o, r.voxel, dv);
+    range.x = max(range.x, r.guard / max(cosine, 1e-6));
+    range.y = min(range.y, limit);
+    if (!(range.x < range.y))
+        return NO_HIT;
+    // C9: a filtered layer of one voxel is 2 (1 - threshold) voxels thick; a longer step can jump over it.
+    float shell = 2.0 * (1.0 - params.threshold) / length(dv);
+    float count = float(params.steps);
+    float dr = params.stepping == 0 ? frame.r_max / count : 0.0;
+    if (params.stepping == 0)
+        count = min(ceil((range.y - range.x) / dr), count);
+    else {
+        count = clamp(ceil((range.y - range.x) / shell), 1.0, count);
+        dr = (range.y - range.x) / count;
+    }
+    vec3 texel = 1.0 / vec3(textureSize(volume_atlas, 0));
+    vec3 start = (o.atlas.xyz + r.voxel) * texel, along = dv * texel;
+    float t = range.x + jitter * dr;
+    for (int i = 0; i < int(count) && t < range.y; i++, t += dr) {
+        fetches++;
+        if (textureLod(volume_atlas, start + along * t, 0.0).r >= params.threshold) {
+            // The mean hit lies dr/2 behind the filtered layer's front, the surface half a layer behind it.
+            return clamp(t + 0.5 * (shell - dr), range.x, NO_HIT);
+        }
+    }
+    return NO_HIT;
+}
+
+// Exact for any number of volumes: rho of the nearest hit, ray by ray. Uniform control flow.
+float occlusion_union(bool inside, vec3 position, vec3 normal, ivec2 pixel, inout uint fetches)
+{
+    vec3 tangent, bitangent;
+    tangent_frame(normal, tangent, bitangent);
+    int block = direction_block(pixel);
+    float shift = noise(pixel, 1u), sum = 0.0;
+    for (int first = 0; first < params.rays; first += BATCH) {
+        int batch = min(BATCH, params.rays - first);
+        float nearest[BATCH];
+        for (int j = 0; j < BATCH; j++)
+            nearest[j] = frame.r_max;
+        for (int chunk = 0; chunk < frame.occluder_count; chunk += CHUNK) {
+            if (first == 0 || frame.occluder_count > CHUNK)
+                tile_list(chunk);
+            for (uint i = 0u; inside && i < tile_count; i++) {
+                Occluder o = occluders[tile_items[i]];
+                Receiver r = receive(o, position, normal);
+                if (!r.can_see)
+                    continue;
+                for (int j = 0; j < batch; j++) {
+                    vec3 d = direction(first + j, block, tangent, bitangent, normal);
+                    float jitter = fract(shift + float(first + j) * 0.61803399);
+                    nearest[j] = min(nearest[j], march(o, r, d, dot(d, normal), nearest[j], jitter, fetches));
+                }
+            }
+        }
+        for (int j = 0; j < batch; j++)
+            sum += falloff(nearest[j]);
+    }
+    return sum / float(params.rays);
+}
+
+// The paper's: product of the volumes' visibilities; darkens where volumes overlap, lights where they do not (C5).
+float occlusion_multiply(bool inside, vec3 position, vec3 normal, ivec2 pixel, inout uint fetches)
+{
+    vec3 tangent, bitangent;
+    tangent_frame(normal, tangent, bitangent);
+    int block = direction_block(pixel);
+    float shift = noise(pixel, 1u), visibility = 1.0;
+    for (int chunk = 0; chunk < frame.occluder_count; chunk += CHUNK) {
+        tile_list(chunk);
+        for (uint i = 0u; inside && i < tile_count; i++) {
+            Occluder o = occluders[tile_items[i]];
+            Receiver r = receive(o, position, normal);
+            if (!r.can_see)
+                continue;
+            float sum = 0.0;
+            for (int j = 0; j < params.rays; j++) {
+                vec3 d = direction(j, block, tangent, bitangent, normal);
+                float jitter = fract(shift + float(j) * 0.61803399);
+                sum += falloff(march(o, r, d, dot(d, normal), frame.r_max, jitter, fetches));
+            }
+            visibility *= 1.0 - sum / float(params.rays);
+        }
+    }
+    return 1.0 - visibility;
+}
+
+void main()
+{
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    bool on_image = all(lessThan(pixel, frame.size));
+    float depth = on_image ? texelFetch(depth_texture, pixel, 0).r : 0.0, occlusion = 0.0;
+    uint fetches = 0u;
+    if (tile_begin(depth)) {
+        vec3 position = view_position(pixel, depth);
+        vec3 normal = on_image ? octahedral_decode(texelFetch(normal_texture, pixel, 0).xy) : vec3(0.0, 0.0, 1.0);
+        occlusion = params.combine == 0 ? occlusion_multiply(depth > 0.0, position, normal, pixel, fetches)
+                                        : occlusion_union(depth > 0.0, position, normal, pixel, fetches);
+    }
+    if (on_image)
+        imageStore(visibility_image, pixel, vec4(depth > 0.0 ? clamp(1.0 - occlusion, 0.0, 1.0) : 1.0));
+    count_fetches(fetches);
+}
