@@ -10,6 +10,10 @@
 #include "engine/gpu/gpu.h"
 #include "modules/ao/nook_ao.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 #define NOOK_AO_TECHNIQUE_VERSION 1
 
 /** Triangles for the reference, in mesh space. */
@@ -86,3 +90,15 @@ typedef struct nook_ao_technique {
     /** @param params  the struct made from params.def; the same bytes are in pass->params */
     nook_result (*record)(void *state, const void *params, const nook_ao_pass *pass);
 } nook_ao_technique;
+
+/**
+ * Runs one compute shader over the trace with everything of the pass bound (see nook_ao_pass): most techniques' record.
+ * @param local_x, local_y  the shader's local size, pixels
+ * @return NOOK_E_NOT_FOUND, NOOK_E_DEVICE
+ */
+nook_result nook_ao_pass_dispatch(const nook_ao_pass *pass, const char *shader_path, uint32_t local_x,
+                                  uint32_t local_y);
+
+#ifdef __cplusplus
+}
+#endif

@@ -26,15 +26,11 @@ static nook_result record(void *state, const void *params, const nook_ao_pass *p
         pass->gpu->gl->ClearTexImage(pass->visibility.id, 0, GL_RGBA, GL_FLOAT, open);
         return NOOK_OK;
     }
-    nook_program program;
-    nook_result result = nook_program_compute(pass->gpu, "shaders/ao/volume.comp.glsl", "", &program);
-    if (result == NOOK_OK)
-        result = nook_direction_texture_fit(&s->directions, pass->gpu, (uint32_t)p->rays, pass->seed);
+    nook_result result = nook_direction_texture_fit(&s->directions, pass->gpu, (uint32_t)p->rays, pass->seed);
     if (result != NOOK_OK)
         return result;
     nook_bind_texture(pass->gpu, BINDING_DIRECTIONS, s->directions.texture);
-    nook_dispatch(pass->gpu, program, nook_groups(pass->width, TILE_SIZE), nook_groups(pass->height, TILE_SIZE), 1);
-    return NOOK_OK;
+    return nook_ao_pass_dispatch(pass, "shaders/ao/volume.comp.glsl", TILE_SIZE, TILE_SIZE);
 }
 
 const nook_ao_technique nook_ao_volume_technique = {

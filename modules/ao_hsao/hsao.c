@@ -1,0 +1,22 @@
+#include "modules/ao_hsao/hsao.h"
+
+#define NOOK_PARAM_STRUCT hsao_params
+#define NOOK_PARAM_FILE "modules/ao_hsao/params.def"
+#include "engine/core/param_block.inl"
+
+static nook_result record(void *state, const void *params, const nook_ao_pass *pass)
+{
+    (void)state, (void)params; /* the shader reads pass->params */
+    return nook_ao_pass_dispatch(pass, "shaders/ao/hsao.comp.glsl", 16, 8);
+}
+
+const nook_ao_technique nook_ao_hsao_technique = {
+    .version = NOOK_AO_TECHNIQUE_VERSION,
+    .name = "hsao",
+    .summary = "Horizons of the depth buffer below, rays above them; sees only what the camera sees",
+    .params = param_table,
+    .param_count = NOOK_COUNT(param_table),
+    .params_size = sizeof(hsao_params),
+    .state_version = 1,
+    .record = record,
+};

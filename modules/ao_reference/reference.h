@@ -1,0 +1,10 @@
+/**
+ * reference.h - the technique "reference": ray-cast truth from the same G-buffer, on the CPU through Embree.
+ *
+ * Cosine-weighted rays against the triangles of every occluder (nook_ao_add_mesh): A = mean of rho(first hit). The points
+ * are Sobol's, shifted per pixel, so that the error falls much faster than 1 / sqrt(rays).
+ */
+#pragma once
+#include "modules/ao/technique.h"
+
+extern const nook_ao_technique nook_ao_reference_technique;

@@ -1,0 +1,175 @@
+#include "modules/ao_reference/tracer.h"
+#include "engine/core/log.h"
+#include <embree3/rtcore.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct traced_mesh {
+    uint32_t id;
+    RTCScene scene;
+} traced_mesh;
+
+struct tracer {
+    RTCDevice device;
+    traced_mesh *meshes;
+    uint32_t mesh_count, mesh_capacity;
+    RTCScene world; /**< NULL before the first update. */
+};
+
+nook_result tracer_create(tracer **out_tracer)
+{
+    *out_tracer = NULL;
+    tracer *t = calloc(1, sizeof *t);
+    if (!t)
+        return nook_fail(NOOK_E_MEMORY, "reference: no memory");
+    t->device = rtcNewDevice(NULL);
+    if (!t->device) {
+        int code = (int)rtcGetDeviceError(NULL);
+        free(t);
+        return nook_fail(NOOK_E_DEVICE, "reference: Embree does not start (error %d); it needs SSE2 and memory", code);
+    }
+    *out_tracer = t;
+    return NOOK_OK;
+}
+
+void tracer_destroy(tracer *t)
+{
+    if (!t)
+        return;
+    if (t->world)
+        rtcReleaseScene(t->world);
+    for (uint32_t i = 0; i < t->mesh_count; i++)
+        rtcReleaseScene(t->meshes[i].scene);
+    free(t->meshes);
+    rtcReleaseDevice(t->device);
+    free(t);
+}
+
+static nook_result check_device(const tracer *t)
+{
+    RTCError error = rtcGetDeviceError(t->device);
+    if (error == RTC_ERROR_NONE)
+        return NOOK_OK;
+    return nook_fail(error == RTC_ERROR_OUT_OF_MEMORY ? NOOK_E_MEMORY : NOOK_E_DEVICE, "reference: Embree error %d",
+                     (int)error);
+}
+
+static RTCScene find_mesh(const tracer *t, uint32_t id)
+{
+    for (uint32_t i = 0; i < t->mesh_count; i++) {
+        if (t->meshes[i].id == id)
+            return t->meshes[i].scene;
+    }
+    return NULL;
+}
+
+/** Embree reads 16 bytes at each vertex, so positions get one float of padding: they are copied into its own buffer. */
+static RTCScene build_mesh(const tracer *t, const nook_ao_mesh_view *mesh)
+{
+    RTCGeometry geometry = rtcNewGeometry(t->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    float *positions = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                               3 * sizeof(float), mesh->vertex_count);
+    uint32_t *indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                                3 * sizeof(uint32_t), mesh->index_count / 3);
+    if (!positions || !indices) {
+        rtcReleaseGeometry(geometry);
+        return NULL;
+    }
+    memcpy(positions, mesh->positions, (size_t)mesh->vertex_count * 3 * sizeof *positions);
+    memcpy(indices, mesh->indices, (size_t)mesh->index_count * sizeof *indices);
+    rtcCommitGeometry(geometry);
+    RTCScene scene = rtcNewScene(t->device);
+    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST); /* no ray slips between two triangles of one edge */
+    rtcAttachGeometry(scene, geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(scene);
+    return scene;
+}
+
+static nook_result add_mesh(tracer *t, const nook_ao_mesh_view *mesh)
+{
+    if (find_mesh(t, mesh->id))
+        return NOOK_OK;
+    if (t->mesh_count == t->mesh_capacity) {
+        uint32_t capacity = t->mesh_capacity ? t->mesh_capacity * 2 : 16;
+        traced_mesh *grown = realloc(t->meshes, capacity * sizeof *grown);
+        if (!grown)
+            return nook_fail(NOOK_E_MEMORY, "reference: no memory");
+        t->meshes = grown;
+        t->mesh_capacity = capacity;
+    }
+    RTCScene scene = build_mesh(t, mesh);
+    if (!scene)
+        return nook_fail(NOOK_E_MEMORY, "reference: no memory for %u triangles", mesh->index_count / 3);
+    t->meshes[t->mesh_count++] = (traced_mesh){ mesh->id, scene };
+    return check_device(t);
+}
+
+static void drop_removed(tracer *t, const nook_ao_pass *pass)
+{
+    for (uint32_t i = 0; i < t->mesh_count;) {
+        uint32_t k = 0;
+        while (k < pass->mesh_count && pass->meshes[k].id != t->meshes[i].id)
+            k++;
+        if (k < pass->mesh_count) {
+            i++;
+            continue;
+        }
+        rtcReleaseScene(t->meshes[i].scene);
+        t->meshes[i] = t->meshes[--t->mesh_count];
+    }
+}
+
+static void add_instance(tracer *t, RTCScene mesh, const nook_matrix *view_from_mesh)
+{
+    float transform[16];
+    RTCGeometry geometry = rtcNewGeometry(t->device, RTC_GEOMETRY_TYPE_INSTANCE);
+    nook_matrix_to_float(view_from_mesh, transform);
+    rtcSetGeometryInstancedScene(geometry, mesh);
+    rtcSetGeometryTimeStepCount(geometry, 1);
+    rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, transform);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(t->world, geometry);
+    rtcReleaseGeometry(geometry);
+}
+
+nook_result tracer_update(tracer *t, const nook_ao_pass *pass)
+{
+    drop_removed(t, pass);
+    for (uint32_t i = 0; i < pass->mesh_count; i++) {
+        nook_result result = pass->meshes[i].index_count ? add_mesh(t, &pass->meshes[i]) : NOOK_OK;
+        if (result != NOOK_OK)
+            return result;
+    }
+    if (t->world)
+        rtcReleaseScene(t->world);
+    t->world = rtcNewScene(t->device);
+    rtcSetSceneFlags(t->world, RTC_SCENE_FLAG_ROBUST);
+    for (uint32_t i = 0; i < pass->instance_count; i++) {
+        RTCScene mesh = find_mesh(t, pass->meshes[pass->instances[i].mesh].id);
+        if (mesh)
+            add_instance(t, mesh, &pass->instances[i].view_from_mesh);
+    }
+    rtcCommitScene(t->world);
+    return check_device(t);
+}
+
+float tracer_distance(const tracer *t, const float origin[3], const float direction[3], float limit, int any)
+{
+    struct RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    struct RTCRayHit hit = { 0 };
+    hit.ray.org_x = origin[0], hit.ray.org_y = origin[1], hit.ray.org_z = origin[2];
+    hit.ray.dir_x = direction[0], hit.ray.dir_y = direction[1], hit.ray.dir_z = direction[2];
+    hit.ray.tfar = limit;
+    hit.ray.mask = ~0u;
+    hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    if (any) {
+        rtcOccluded1(t->world, &context, &hit.ray);
+        return hit.ray.tfar < 0.0f ? 0.0f : INFINITY;
+    }
+    rtcIntersect1(t->world, &context, &hit);
+    return hit.hit.geomID == RTC_INVALID_GEOMETRY_ID ? INFINITY : hit.ray.tfar;
+}

@@ -1,0 +1,103 @@
+// Technique "hsao": see modules/ao_hsao/hsao.h. With elevation e above the tangent plane, equation 1 over one azimuth gives
+// A = sin^2(e) for everything below e blocked (cosine weighted; classic HBAO's sin(e) lacks the cosine: erratum C18).
+#version 450 core
+#include "ao/frame.glsl"
+#include "ao/falloff.glsl"
+#include "ao/counter.glsl"
+#include "nook/octahedral.glsl"
+#include "nook/params.glsl"
+layout(local_size_x = 16, local_size_y = 8) in;
+layout(std140, binding = 1) uniform Params {
+#include "modules/ao_hsao/params.def"
+} params;
+layout(binding = 0) uniform sampler2D depth_texture;
+layout(binding = 1) uniform sampler2D normal_texture;
+layout(binding = 0, r32f) uniform writeonly image2D visibility_image;
+
+struct Sample {
+    vec3 position; // of the surface seen there
+    bool seen;
+};
+
+Sample look_at(vec3 point, inout uint fetches)
+{
+    Sample s = Sample(vec3(0.0), false);
+    if (point.z >= 0.0)
+        return s;
+    ivec2 q = ivec2(round(trace_pixel(point)));
+    if (any(lessThan(q, ivec2(0))) || any(greaterThanEqual(q, frame.size)))
+        return s;
+    float depth = texelFetch(depth_texture, q, 0).r;
+    fetches++;
+    s.position = view_position(q, depth);
+    s.seen = depth > 0.0;
+    return s;
+}
+
+// Below the horizon of one azimuth (`along`, in the tangent plane). out_height: square of the sine of the horizon.
+float below_horizon(vec3 p, vec3 n, vec3 along, float jitter, out float out_height, inout uint fetches)
+{
+    float bias = sin(radians(params.bias)), height = bias * bias, sum = 0.0;
+    for (int i = 0; i < params.steps; i++) {
+        Sample s = look_at(p + along * (frame.r_max * (float(i) + jitter) / float(params.steps)), fetches);
+        vec3 v = s.position - p;
+        float apart = length(v), rise = dot(v, n);
+        if (!s.seen || apart <= 0.0 || apart >= frame.r_max || rise <= 0.0)
+            continue;
+        float square = (rise / apart) * (rise / apart);
+        if (square > height) {
+            sum += (square - height) * falloff(apart);
+            height = square;
+        }
+    }
+    out_height = height;
+    return sum;
+}
+
+// One ray above the horizon: the falloff where it first passes behind a surface within reach, else 0.
+float march_above(vec3 p, vec3 d, float jitter, inout uint fetches)
+{
+    for (int i = 0; i < params.ray_steps; i++) {
+        float t = frame.r_max * (float(i) + jitter) / float(params.ray_steps);
+        vec3 point = p + d * t;
+        Sample s = look_at(point, fetches);
+        if (s.seen && s.position.z > point.z && distance(s.position, p) < frame.r_max)
+            return falloff(t);
+    }
+    return 0.0;
+}
+
+float occlusion(ivec2 pixel, vec3 p, vec3 n, inout uint fetches)
+{
+    vec3 tangent, bitangent;
+    tangent_frame(n, tangent, bitangent);
+    float turn = noise(pixel, 3u), jitter = noise(pixel, 4u), lift = noise(pixel, 5u), sum = 0.0;
+    for (int k = 0; k < params.directions; k++) {
+        float angle = 6.2831853 * (float(k) + turn) / float(params.directions), height;
+        vec3 along = tangent * cos(angle) + bitangent * sin(angle);
+        float first = 0.05 + 0.95 * fract(jitter + float(k) * 0.61803399); // never p itself
+        sum += below_horizon(p, n, along, first, height, fetches);
+        for (int m = 0; m < params.rays; m++) {
+            float part = (float(m) + fract(lift + float(k) * 0.75487767)) / float(params.rays);
+            float square = mix(height, 1.0, part); // cosine weighted: sin^2 of the elevation is uniform
+            vec3 d = along * sqrt(1.0 - square) + n * sqrt(square);
+            sum += (1.0 - height) / float(params.rays) * march_above(p, d, first, fetches);
+        }
+    }
+    return sum / float(params.directions);
+}
+
+void main()
+{
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, frame.size)))
+        return;
+    float depth = texelFetch(depth_texture, pixel, 0).r, visibility = 1.0;
+    uint fetches = 0u;
+    if (depth > 0.0) {
+        vec3 normal = octahedral_decode(texelFetch(normal_texture, pixel, 0).xy);
+        visibility = clamp(1.0 - occlusion(pixel, view_position(pixel, depth), normal, fetches), 0.0, 1.0);
+    }
+    imageStore(visibility_image, pixel, vec4(visibility));
+    count_fetches(fetches);
+}
