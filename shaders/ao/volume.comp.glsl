@@ -21,55 +21,80 @@ const float NO_HIT = 1e30;
 
 // A fragment as one occluder's voxels see it.
 struct Receiver {
-    vec3 voxel;       // position
-    float guard;      // metres along the view normal up to which the fragment's own voxels reach
-    bool can_see;     // some ray can hit
+    vec3 voxel;  // position
+    vec3 normal; // unit, voxel space
+    float slab;  // voxels above the fragment's plane up to which its own voxels reach in the filtered volume
+    float guard; // the same in metres along the view normal
+    bool can_see; // some ray can hit
 };
 
 // C7: voxels made by the fragment's own plane reach ((|nx|+|ny|+|nz|)/2 + 1 - threshold) voxels above it in the filtered
-// volume, n in voxel space. C8: rays that do not leave that slab within r_max count as misses.
+// volume, n in voxel space.
 Receiver receive(Occluder o, vec3 position, vec3 normal)
 {
     Receiver r;
     r.voxel = to_voxel(o, position);
-    vec3 n = normal_to_voxel(o, normal);
-    float stretch = length(n);
-    n /= stretch;
-    float slab = 0.5 * (abs(n.x) + abs(n.y) + abs(n.z)) + (1.0 - params.threshold) + FILTER_PRECISION;
-    r.guard = slab * stretch;
-    // Highest point of the volume above the fragment's plane, voxels: below the slab there is nothing to hit.
-    float top = dot(n, 0.5 * o.size.xyz - r.voxel) + dot(abs(n), 0.5 * o.size.xyz - MARGIN);
-    r.can_see = is_near(o, r.voxel) && top > slab && r.guard < frame.r_max;
+    r.normal = normal_to_voxel(o, normal);
+    float stretch = length(r.normal);
+    r.normal /= stretch;
+    r.slab = 0.5 * (abs(r.normal.x) + abs(r.normal.y) + abs(r.normal.z)) + (1.0 - params.threshold) + FILTER_PRECISION;
+    r.guard = r.slab * stretch;
+    // Highest point of the volume above the fragment's plane: below the slab there is nothing to hit.
+    float top = dot(r.normal, 0.5 * o.size.xyz - r.voxel) + dot(abs(r.normal), 0.5 * o.size.xyz - MARGIN);
+    r.can_see = is_near(o, r.voxel) && top > r.slab && r.guard < frame.r_max;
     return r;
+}
+
+// Path of a ray through one volume: along the top of the slab up to `leave`, then along the ray itself.
+struct Path {
+    vec3 lifted, across; // voxel = lifted + across * t, t < leave
+    vec3 origin, along;  // voxel = origin + along * t
+    float leave;         // metres
+    float start, end;    // metres; empty when start >= end
+};
+
+Path make_path(Occluder o, Receiver r, vec3 d, float cosine, float limit)
+{
+    Path path;
+    path.origin = r.voxel;
+    path.along = direction_to_voxel(o, d);
+    path.leave = r.guard / max(cosine, 1e-6);
+    vec2 free = clip_to_volume(o, path.origin, path.along);
+    path.start = max(free.x, path.leave);
+    path.end = min(free.y, limit);
+    if (params.guard == 0)
+        return path;
+    path.lifted = r.voxel + r.normal * r.slab;
+    path.across = path.along - r.normal * dot(r.normal, path.along);
+    vec2 bound = clip_to_volume(o, path.lifted, path.across);
+    float first = max(bound.x, r.guard), last = min(min(bound.y, path.leave), limit);
+    bool below = first < last, above = path.start < path.end;
+    path.end = above ? path.end : last;
+    path.start = below ? first : path.start;
+    return path;
 }
 
 // Distance of the first hit along d (unit, view space) before `limit`, or NO_HIT.
 float march(Occluder o, Receiver r, vec3 d, float cosine, float limit, float jitter, inout uint fetches)
 {
-    vec3 dv = direction_to_voxel(o, d);
-    vec2 range = clip_to_volume(o, r.voxel, dv);
-    range.x = max(range.x, r.guard / max(cosine, 1e-6));
-    range.y = min(range.y, limit);
-    if (!(range.x < range.y))
+    Path path = make_path(o, r, d, cosine, limit);
+    if (!(path.start < path.end))
         return NO_HIT;
     // C9: a filtered layer of one voxel is 2 (1 - threshold) voxels thick; a longer step can jump over it.
-    float shell = 2.0 * (1.0 - params.threshold) / length(dv);
-    float count = float(params.steps);
-    float dr = params.stepping == 0 ? frame.r_max / count : 0.0;
-    if (params.stepping == 0)
-        count = min(ceil((range.y - range.x) / dr), count);
-    else {
-        count = clamp(ceil((range.y - range.x) / shell), 1.0, count);
-        dr = (range.y - range.x) / count;
-    }
+    float shell = 2.0 * (1.0 - params.threshold) / length(path.along);
+    float range = path.end - path.start;
+    float needed = params.stepping == 0 ? range * float(params.steps) / frame.r_max : range / shell;
+    float count = clamp(ceil(needed), 1.0, float(params.steps));
+    float dr = params.stepping == 0 ? frame.r_max / float(params.steps) : range / count;
     vec3 texel = 1.0 / vec3(textureSize(volume_atlas, 0));
-    vec3 start = (o.atlas.xyz + r.voxel) * texel, along = dv * texel;
-    float t = range.x + jitter * dr;
-    for (int i = 0; i < int(count) && t < range.y; i++, t += dr) {
+    float t = path.start + jitter * dr;
+    for (int i = 0; i < int(count) && t < path.end; i++, t += dr) {
+        vec3 voxel = t < path.leave ? path.lifted + path.across * t : path.origin + path.along * t;
+        voxel = clamp(voxel, vec3(MARGIN), o.size.xyz - MARGIN);
         fetches++;
-        if (textureLod(volume_atlas, start + along * t, 0.0).r >= params.threshold) {
+        if (textureLod(volume_atlas, (o.atlas.xyz + voxel) * texel, 0.0).r >= params.threshold) {
             // The mean hit lies dr/2 behind the filtered layer's front, the surface half a layer behind it.
-            return clamp(t + 0.5 * (shell - dr), range.x, NO_HIT);
+            return max(t + 0.5 * (shell - dr), 0.0);
         }
     }
     return NO_HIT;
