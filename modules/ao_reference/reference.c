@@ -121,7 +121,7 @@ static void trace_image(trace_work *work, unsigned threads)
 }
 
 /** Everything the trace needs in one block: depth, normals, visibility, points. */
-static nook_result trace_with_memory(const nook_ao_pass *pass, const reference_params *params, const tracer *tracer,
+static nook_result trace_with_memory(const nook_ao_pass *pass, const reference_params *params, const tracer *t,
                                      float *memory)
 {
     size_t pixels = (size_t)pass->width * pass->height;
@@ -132,7 +132,7 @@ static nook_result trace_with_memory(const nook_ao_pass *pass, const reference_p
     for (uint32_t i = 0; i < (uint32_t)params->rays; i++)
         nook_sobol_point(i, 0, points + 2 * i);
     trace_work work = { .pass = pass,
-                        .tracer = tracer,
+                        .tracer = t,
                         .depth = depth,
                         .normal = normal,
                         .points = points,

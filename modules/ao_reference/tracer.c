@@ -48,7 +48,7 @@ void tracer_destroy(tracer *t)
 
 static nook_result check_device(const tracer *t)
 {
-    RTCError error = rtcGetDeviceError(t->device);
+    enum RTCError error = rtcGetDeviceError(t->device);
     if (error == RTC_ERROR_NONE)
         return NOOK_OK;
     return nook_fail(error == RTC_ERROR_OUT_OF_MEMORY ? NOOK_E_MEMORY : NOOK_E_DEVICE, "reference: Embree error %d",

@@ -3,7 +3,6 @@
 // surface, weighted by distance to the pixel's plane and by normal.
 //
 // Constant in gives constant out bit for bit: the result is the nearest sample plus a weighted mean of differences to it.
-#version 450 core
 #include "ao/frame.glsl"
 #include "nook/octahedral.glsl"
 layout(local_size_x = 16, local_size_y = 8) in;
@@ -28,7 +27,7 @@ float guide_weight(Guide guide, ivec2 q, float depth)
 {
     vec3 offset = view_position(q, depth) - guide.position;
     float plane = dot(guide.normal, offset) / (guide.footprint * float(frame.scale) * frame.filter_depth);
-    float facing = max(dot(guide.normal, octahedral_decode(texelFetch(normal_trace, q, 0).xy)), 0.0);
+    float facing = max(dot(guide.normal, nook_octahedral_decode(texelFetch(normal_trace, q, 0).xy)), 0.0);
     return exp(-plane * plane) * pow(max(facing, 1e-6), frame.filter_normal);
 }
 
@@ -98,7 +97,7 @@ void main()
     if (depth > 0.0) {
         Guide guide;
         guide.position = full_ray(vec2(p)) * depth;
-        guide.normal = octahedral_decode(texelFetch(normal_full, p, 0).xy);
+        guide.normal = nook_octahedral_decode(texelFetch(normal_full, p, 0).xy);
         guide.footprint = depth * pixel_footprint();
         vec2 centre = (vec2(p) - float(frame.scale / 2)) / float(frame.scale);
         result = clamp(filtered(centre, guide, p), 0.0, 1.0);

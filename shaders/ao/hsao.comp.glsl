@@ -1,6 +1,5 @@
 // Technique "hsao": see modules/ao_hsao/hsao.h. With elevation e above the tangent plane, equation 1 over one azimuth gives
 // A = sin^2(e) for everything below e blocked (cosine weighted; classic HBAO's sin(e) lacks the cosine: erratum C18).
-#version 450 core
 #include "ao/frame.glsl"
 #include "ao/falloff.glsl"
 #include "ao/counter.glsl"
@@ -95,7 +94,7 @@ void main()
     float depth = texelFetch(depth_texture, pixel, 0).r, visibility = 1.0;
     uint fetches = 0u;
     if (depth > 0.0) {
-        vec3 normal = octahedral_decode(texelFetch(normal_texture, pixel, 0).xy);
+        vec3 normal = nook_octahedral_decode(texelFetch(normal_texture, pixel, 0).xy);
         visibility = clamp(1.0 - occlusion(pixel, view_position(pixel, depth), normal, fetches), 0.0, 1.0);
     }
     imageStore(visibility_image, pixel, vec4(visibility));

@@ -1,5 +1,4 @@
 // Full-resolution depth and normals -> trace resolution: one pixel of each block, never an average (it lies on no surface).
-#version 450 core
 #include "ao/frame.glsl"
 layout(local_size_x = 16, local_size_y = 8) in;
 layout(binding = 0) uniform sampler2D depth_full;

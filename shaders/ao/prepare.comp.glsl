@@ -1,5 +1,4 @@
 // Device depth and world normals of the host -> distance along -Z and view normals: the inputs of every technique.
-#version 450 core
 #include "ao/frame.glsl"
 #include "nook/octahedral.glsl"
 layout(local_size_x = 16, local_size_y = 8) in;
@@ -32,7 +31,7 @@ vec3 slope(ivec2 p, float centre, ivec2 direction)
 vec3 normal_at(ivec2 p, float depth)
 {
     if (frame.has_normal != 0) {
-        vec3 world = octahedral_decode(texelFetch(normal_world, p, 0).xy);
+        vec3 world = nook_octahedral_decode(texelFetch(normal_world, p, 0).xy);
         mat3 rotation = mat3(frame.view_from_world[0].xyz, frame.view_from_world[1].xyz, frame.view_from_world[2].xyz);
         vec3 view = rotation * world;
         float size = dot(view, view);
@@ -51,5 +50,5 @@ void main()
         return;
     float depth = distance_at(p);
     imageStore(depth_out, p, vec4(depth));
-    imageStore(normal_out, p, vec4(octahedral_encode(normal_at(p, depth)), 0.0, 0.0));
+    imageStore(normal_out, p, vec4(nook_octahedral_encode(normal_at(p, depth)), 0.0, 0.0));
 }

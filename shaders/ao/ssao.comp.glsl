@@ -1,5 +1,4 @@
 // Technique "ssao": Mittring 2007. A = mean over points around p of [the depth buffer hides the point] * rho(|hider - p|).
-#version 450 core
 #include "ao/frame.glsl"
 #include "ao/falloff.glsl"
 #include "ao/counter.glsl"
@@ -63,7 +62,7 @@ void main()
     float depth = texelFetch(depth_texture, pixel, 0).r, visibility = 1.0;
     uint fetches = 0u;
     if (depth > 0.0) {
-        vec3 normal = octahedral_decode(texelFetch(normal_texture, pixel, 0).xy);
+        vec3 normal = nook_octahedral_decode(texelFetch(normal_texture, pixel, 0).xy);
         visibility = clamp(1.0 - occlusion(pixel, view_position(pixel, depth), normal, fetches), 0.0, 1.0);
     }
     imageStore(visibility_image, pixel, vec4(visibility));

@@ -1,5 +1,4 @@
 // Technique "volume": Papaioannou, Menexi, Papadopoulos 2010, section 5.1, errata C2, C5, C7, C8, C9 of docs/techniques.md.
-#version 450 core
 #include "ao/frame.glsl"
 #include "ao/falloff.glsl"
 #include "ao/counter.glsl"
@@ -167,7 +166,7 @@ void main()
     uint fetches = 0u;
     if (tile_begin(depth)) {
         vec3 position = view_position(pixel, depth);
-        vec3 normal = on_image ? octahedral_decode(texelFetch(normal_texture, pixel, 0).xy) : vec3(0.0, 0.0, 1.0);
+        vec3 normal = on_image ? nook_octahedral_decode(texelFetch(normal_texture, pixel, 0).xy) : vec3(0.0, 0.0, 1.0);
         occlusion = params.combine == 0 ? occlusion_multiply(depth > 0.0, position, normal, pixel, fetches)
                                         : occlusion_union(depth > 0.0, position, normal, pixel, fetches);
     }

@@ -1,0 +1,236 @@
+/* The volume technique on closed forms: it must not see its own surface, and must combine objects as it says. */
+#include "tests/support/ao_fixture.h"
+#include <math.h>
+#include <stdio.h>
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <cmocka.h>
+
+static const double pi = 3.14159265358979323846;
+static const double origin[3] = { 0, 0, 0 }, up[3] = { 0, 0, 1 };
+
+static ao_fixture *prepare(void **state, const char *combine, const char *r_max)
+{
+    ao_fixture *fixture = *state;
+    ao_fixture_clear(fixture);
+    fixture->view_angle = 1e-3;
+    ao_fixture_param(fixture, "ao.falloff", "hard");
+    ao_fixture_param(fixture, "ao.r_max", r_max);
+    ao_fixture_param(fixture, "volume.rays", "256");
+    ao_fixture_param(fixture, "volume.steps", "512");
+    ao_fixture_param(fixture, "volume.stepping", "matched");
+    ao_fixture_param(fixture, "volume.threshold", "0.5");
+    ao_fixture_param(fixture, "volume.guard", "lifted");
+    ao_fixture_param(fixture, "volume.combine", combine);
+    return fixture;
+}
+
+/** A floor through `at` with a normal, in a mesh whose box moves the voxel grid by `phase` voxels along each axis. */
+static double add_tilted_floor(ao_fixture *fixture, const double at[3], const double n[3], double phase)
+{
+    double t[3], b[3], corner[3], edge_t[3], edge_b[3], size = 2.0, anchor = 3.0 + phase * 8.0 / 128;
+    double s = n[2] >= 0.0 ? 1.0 : -1.0, a = -1.0 / (s + n[2]), c = n[0] * n[1] * a;
+    t[0] = 1.0 + s * n[0] * n[0] * a, t[1] = s * c, t[2] = -s * n[0];
+    b[0] = c, b[1] = s + n[1] * n[1] * a, b[2] = -n[1];
+    for (int axis = 0; axis < 3; axis++) {
+        corner[axis] = at[axis] - size * (t[axis] + b[axis]);
+        edge_t[axis] = 2 * size * t[axis];
+        edge_b[axis] = 2 * size * b[axis];
+    }
+    fixture_mesh mesh = { 0 };
+    fixture_quad(&mesh, corner, edge_t, edge_b);
+    /* Two specks fix the box to 8 units from -anchor; the grid's voxels are 8 / 128 wide. */
+    for (int side = 0; side < 2; side++) {
+        double p = side ? 8.0 - anchor : -anchor;
+        fixture_triangle(&mesh, (double[]){ p, p, p }, (double[]){ p, p, p }, (double[]){ p, p, p });
+    }
+    double voxel = ao_fixture_add(fixture, &mesh, 128);
+    fixture_mesh_free(&mesh);
+    return voxel;
+}
+
+/** Direction k of 20: the axes' neighbourhood, edges, corners and slight tilts. */
+static void sweep_normal(int k, double n[3])
+{
+    static const double tilts[5] = { 0.0, 0.05, 0.3, 0.615479709, 0.785398163 }; /* 35.26 degrees: (1, 1, 1) */
+    static const double turns[4] = { 0.0, 0.785398163, 1.1, 2.5 };
+    double tilt = tilts[k / 4], turn = turns[k % 4];
+    n[0] = sin(tilt) * cos(turn), n[1] = sin(tilt) * sin(turn), n[2] = cos(tilt);
+}
+
+static void check_floor_sweep(void **state, const char *guard, const char *stepping, const char *threshold)
+{
+    ao_fixture *fixture = prepare(state, "union", "0.8");
+    ao_fixture_param(fixture, "volume.rays", "64");
+    ao_fixture_param(fixture, "volume.guard", guard);
+    ao_fixture_param(fixture, "volume.stepping", stepping);
+    ao_fixture_param(fixture, "volume.threshold", threshold);
+    fixture->view_angle = 0.8;
+    for (int k = 0; k < 20; k++) {
+        double n[3];
+        sweep_normal(k, n);
+        for (int phase = 0; phase < 64; phase++) {
+            ao_fixture_clear(fixture);
+            double voxel = add_tilted_floor(fixture, origin, n, phase / 64.0);
+            assert_true(fabs(voxel - 8.0 / 128) < 1e-6);
+            fixture_result got = ao_fixture_measure(fixture, "volume", origin, n, 0.7);
+            if (got.highest >= 1.0 / 255)
+                fail_msg("normal %d (%.3f %.3f %.3f), phase %d of 64: A up to %.4f", k, n[0], n[1], n[2], phase,
+                         got.highest);
+        }
+    }
+}
+
+static void test_volume_sees_nothing_above_a_floor_at_any_phase_and_tilt(void **state)
+{
+    check_floor_sweep(state, "lifted", "matched", "0.5");
+}
+
+static void test_volume_sees_nothing_above_a_floor_with_the_papers_guard_direction_and_steps(void **state)
+{
+    check_floor_sweep(state, "slab", "fixed", "0.5");
+}
+
+static void test_volume_sees_nothing_above_a_floor_at_other_thresholds(void **state)
+{
+    check_floor_sweep(state, "lifted", "matched", "0.2");
+    check_floor_sweep(state, "lifted", "matched", "0.8");
+}
+
+static double measure_box(ao_fixture *fixture, double side, uint32_t resolution)
+{
+    fixture_mesh mesh = { 0 };
+    double half = 0.5 * side;
+    fixture_box(&mesh, (double[]){ -half, -half, 0 }, (double[]){ half, half, side }, 63);
+    ao_fixture_add(fixture, &mesh, resolution);
+    fixture_mesh_free(&mesh);
+    double mean = ao_fixture_measure(fixture, "volume", origin, up, 0.3).mean;
+    ao_fixture_clear(fixture);
+    return mean;
+}
+
+static void test_volume_is_closed_in_a_closed_box_within_eight_voxels(void **state)
+{
+    ao_fixture *fixture = prepare(state, "union", "8"); /* the box is 4 voxels of 1 wide: its diagonal is 6.9 voxels */
+    double closed = measure_box(fixture, 4.0, 4);
+    assert_true(closed >= 0.98);
+    fixture = prepare(state, "union", "128"); /* and at a common resolution, far larger than a voxel */
+    assert_true(measure_box(fixture, 64.0, 64) >= 0.98);
+}
+
+static void add_wall(ao_fixture *fixture, double x)
+{
+    fixture_mesh mesh = { 0 };
+    fixture_quad(&mesh, (double[]){ x, -40, 0 }, (double[]){ 0, 80, 0 }, (double[]){ 0, 0, 40 });
+    ao_fixture_add(fixture, &mesh, 256);
+    fixture_mesh_free(&mesh);
+}
+
+/** A wall at k r_max, hard falloff: fixture 5. */
+static double wall_truth(double k)
+{
+    return (acos(k) - k * sqrt(1 - k * k)) / pi;
+}
+
+static void expect(ao_fixture *fixture, double truth)
+{
+    double got = ao_fixture_measure(fixture, "volume", origin, up, 0.3).mean;
+    if (fabs(got - truth) >= 0.02)
+        fail_msg("A = %.4f, predicted %.4f", got, truth);
+}
+
+static void test_volume_union_counts_a_wall_once_and_multiply_squares_it(void **state)
+{
+    double one = wall_truth(0.1);
+    for (int product = 0; product < 2; product++) {
+        ao_fixture *fixture = prepare(state, product ? "multiply" : "union", "20");
+        add_wall(fixture, 2);
+        add_wall(fixture, 2);
+        expect(fixture, product ? 1 - (1 - one) * (1 - one) : one);
+    }
+}
+
+static void test_volume_union_adds_opposite_walls_and_multiply_falls_short(void **state)
+{
+    double one = wall_truth(0.1);
+    for (int product = 0; product < 2; product++) {
+        ao_fixture *fixture = prepare(state, product ? "multiply" : "union", "20");
+        add_wall(fixture, 2);
+        add_wall(fixture, -2);
+        expect(fixture, product ? 1 - (1 - one) * (1 - one) : 2 * one);
+    }
+}
+
+static void test_volume_combines_the_six_faces_of_a_cube_as_predicted(void **state)
+{
+    const double product = 1 - (1 - 0.23946) * pow(1 - 0.19014, 4);
+    for (int multiply = 0; multiply < 2; multiply++) {
+        ao_fixture *fixture = prepare(state, multiply ? "multiply" : "union", "1000");
+        for (int face = 0; face < 6; face++) {
+            fixture_mesh mesh = { 0 };
+            fixture_box(&mesh, (double[]){ -32, -32, 0 }, (double[]){ 32, 32, 64 }, 1u << face);
+            ao_fixture_add(fixture, &mesh, 128);
+            fixture_mesh_free(&mesh);
+        }
+        expect(fixture, multiply ? product : 1.0);
+    }
+}
+
+static void test_volume_steps_longer_than_a_shell_lose_what_theory_says(void **state)
+{
+    /* C9 under a wide ceiling with the paper's fixed steps: A = 2q - q^2 of what is within reach, q = shell / step. */
+    const double height = 20.0, r_max = 80.0, voxel = 1.0;
+    ao_fixture *fixture = prepare(state, "union", "80");
+    ao_fixture_param(fixture, "volume.stepping", "fixed");
+    ao_fixture_param(fixture, "volume.guard", "slab");
+    fixture_mesh mesh = { 0 };
+    fixture_quad(&mesh, (double[]){ -128, -128, height }, (double[]){ 256, 0, 0 }, (double[]){ 0, 256, 0 });
+    double size = ao_fixture_add(fixture, &mesh, 256);
+    fixture_mesh_free(&mesh);
+    assert_true(fabs(size - voxel) < 1e-6);
+    for (int steps = 20; steps <= 40; steps += 20) {
+        char text[16];
+        snprintf(text, sizeof text, "%d", steps);
+        ao_fixture_param(fixture, "volume.steps", text);
+        double dr = r_max / steps, predicted = 0.0, k = height / r_max;
+        for (int i = 0; i < 10000; i++) { /* a ray of cosine c meets a layer 1 / c thick */
+            double c = k + (1 - k) * (i + 0.5) / 10000;
+            predicted += fmin(1.0, voxel / c / dr) * 2 * c * (1 - k) / 10000;
+        }
+        double got = ao_fixture_measure(fixture, "volume", origin, up, 0.3).mean;
+        if (fabs(got - predicted) >= 0.02)
+            fail_msg("%d steps: A = %.4f, predicted %.4f", steps, got, predicted);
+    }
+}
+
+static void test_volume_reports_unbiased_distances(void **state)
+{
+    /* Linear falloff turns a wrong distance into a wrong A: a ceiling at 0.4 r_max gives (1 - 0.4)^2. */
+    ao_fixture *fixture = prepare(state, "union", "50");
+    ao_fixture_param(fixture, "ao.falloff", "linear");
+    fixture_mesh mesh = { 0 };
+    fixture_quad(&mesh, (double[]){ -128, -128, 20 }, (double[]){ 256, 0, 0 }, (double[]){ 0, 256, 0 });
+    ao_fixture_add(fixture, &mesh, 256);
+    fixture_mesh_free(&mesh);
+    double got = ao_fixture_measure(fixture, "volume", origin, up, 0.3).mean;
+    if (fabs(got - 0.36) >= 0.01)
+        fail_msg("A = %.4f, truth 0.3600", got);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_volume_sees_nothing_above_a_floor_at_any_phase_and_tilt),
+        cmocka_unit_test(test_volume_sees_nothing_above_a_floor_with_the_papers_guard_direction_and_steps),
+        cmocka_unit_test(test_volume_sees_nothing_above_a_floor_at_other_thresholds),
+        cmocka_unit_test(test_volume_is_closed_in_a_closed_box_within_eight_voxels),
+        cmocka_unit_test(test_volume_union_counts_a_wall_once_and_multiply_squares_it),
+        cmocka_unit_test(test_volume_union_adds_opposite_walls_and_multiply_falls_short),
+        cmocka_unit_test(test_volume_combines_the_six_faces_of_a_cube_as_predicted),
+        cmocka_unit_test(test_volume_steps_longer_than_a_shell_lose_what_theory_says),
+        cmocka_unit_test(test_volume_reports_unbiased_distances),
+    };
+    return cmocka_run_group_tests(tests, ao_fixture_setup, ao_fixture_teardown);
+}
