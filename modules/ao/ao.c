@@ -1,6 +1,6 @@
 #include "engine/core/log.h"
-#include "modules/ao/context.h"
-#include "modules/ao/frame_block.h"
+#include "modules/ao/ao_internal.h"
+#include "modules/ao/frame_block_internal.h"
 #include <assert.h>
 #include <math.h>
 #include <stdlib.h>

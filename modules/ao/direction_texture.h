@@ -2,6 +2,10 @@
 #pragma once
 #include "engine/gpu/gpu.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 typedef struct nook_direction_texture {
     nook_texture texture;
     uint32_t rays, seed;
@@ -11,3 +15,7 @@ typedef struct nook_direction_texture {
     @return NOOK_E_MEMORY */
 nook_result nook_direction_texture_fit(nook_direction_texture *directions, nook_gpu *gpu, uint32_t rays, uint32_t seed);
 void nook_direction_texture_release(nook_direction_texture *directions, nook_gpu *gpu);
+
+#ifdef __cplusplus
+}
+#endif

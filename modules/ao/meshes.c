@@ -1,5 +1,5 @@
 #include "engine/core/log.h"
-#include "modules/ao/context.h"
+#include "modules/ao/ao_internal.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

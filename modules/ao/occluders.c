@@ -1,4 +1,4 @@
-#include "modules/ao/context.h"
+#include "modules/ao/ao_internal.h"
 #include <math.h>
 #include <string.h>
 

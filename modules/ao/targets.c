@@ -1,4 +1,4 @@
-#include "modules/ao/context.h"
+#include "modules/ao/ao_internal.h"
 
 void ao_targets_release(nook_gpu *gpu, ao_targets *targets)
 {

@@ -3,7 +3,7 @@
 #include "engine/core/log.h"
 #include "modules/ao/falloff.h"
 #include "modules/ao/sampling.h"
-#include "modules/ao_reference/tracer.h"
+#include "modules/ao_reference/tracer_internal.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

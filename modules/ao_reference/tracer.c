@@ -1,5 +1,5 @@
-#include "modules/ao_reference/tracer.h"
 #include "engine/core/log.h"
+#include "modules/ao_reference/tracer_internal.h"
 #include <embree3/rtcore.h>
 #include <math.h>
 #include <stdlib.h>

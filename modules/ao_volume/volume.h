@@ -8,4 +8,12 @@
 #pragma once
 #include "modules/ao/technique.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 extern const nook_ao_technique nook_ao_volume_technique;
+
+#ifdef __cplusplus
+}
+#endif

@@ -1,5 +1,5 @@
 #pragma once
-// What every AO pass knows of the frame: struct frame_block of modules/ao/frame_block.h, binding 0.
+// What every AO pass knows of the frame: struct frame_block of modules/ao/frame_block_internal.h, binding 0.
 // View space: metres, camera at the origin, looking along -Z. Depth is the distance along -Z; 0 means no geometry.
 
 layout(std140, binding = 0) uniform Frame {

@@ -1,5 +1,5 @@
 #pragma once
-// This frame's volumes: struct ao_gpu_occluder of modules/ao/context.h. Voxel coordinates: (0, 0, 0) at the outer corner of
+// This frame's volumes: struct ao_gpu_occluder of modules/ao/ao_internal.h. Voxel coordinates: (0, 0, 0) at the outer corner of
 // the volume, one unit a voxel.
 #include "ao/frame.glsl"
 

@@ -1,5 +1,5 @@
 /**
- * volume_atlas.h - all volumes in one R8 3D texture, so that one dispatch can march any of them.
+ * volume_atlas_internal.h - all volumes in one R8 3D texture, so that one dispatch can march any of them.
  *
  * Volumes are kept in memory until the next flush, which grows the texture once and uploads what is new.
  */

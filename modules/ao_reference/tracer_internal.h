@@ -1,4 +1,4 @@
-/** tracer.h - Embree behind plain data: meshes once, instances every frame. */
+/** tracer_internal.h - Embree behind plain data: meshes once, instances every frame. */
 #pragma once
 #include "modules/ao/technique.h"
 

@@ -1,10 +1,10 @@
 /**
- * context.h - the inside of nook_ao, shared by the files of modules/ao only.
+ * ao_internal.h - the inside of nook_ao, shared by the files of modules/ao only.
  */
 #pragma once
 #include "modules/ao/nook_ao.h"
 #include "modules/ao/technique.h"
-#include "modules/ao/volume_atlas.h"
+#include "modules/ao/volume_atlas_internal.h"
 
 #define NOOK_PARAM_STRUCT ao_shared
 #define NOOK_PARAM_FILE "modules/ao/params.def"
