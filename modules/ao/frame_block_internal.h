@@ -1,5 +1,4 @@
 #pragma once
-#include <stddef.h>
 #include <stdint.h>
 
 /** Block Frame of shaders/ao/frame.glsl, std140: the same fields in the same order. */
@@ -23,5 +22,3 @@ typedef struct frame_block {
     int32_t padding[2];        /**< A vec4 starts at a multiple of 16 bytes. */
     float view_from_world[12]; /**< Three columns of four. */
 } frame_block;
-
-_Static_assert(offsetof(frame_block, view_from_world) == 96, "std140 places view_from_world at 96");

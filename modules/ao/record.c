@@ -2,8 +2,11 @@
 #include "modules/ao/ao_internal.h"
 #include "modules/ao/frame_block_internal.h"
 #include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
+
+_Static_assert(offsetof(frame_block, view_from_world) == 96, "std140 places view_from_world at 96");
 
 static nook_texture host_texture(nook_ao_texture texture)
 {
