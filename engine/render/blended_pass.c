@@ -93,7 +93,7 @@ void nook_pass_blended(nook_renderer *renderer, const nook_frame *frame)
         uint32_t material = frame->scene->primitives[item->primitive].material;
         nook_bind_material(renderer, frame->scene, material);
         gl->FrontFace(item->mirrored ? GL_CW : GL_CCW);
-        if (scene->materials[material].double_sided) { /* the side that lies behind first */
+        if (scene->materials[material].double_sided || !frame->cull_back_faces) { /* the side that lies behind first */
             gl->CullFace(GL_FRONT);
             nook_draw_primitive(renderer, frame->scene, item->primitive, item->instance, 1);
             gl->CullFace(GL_BACK);

@@ -11,6 +11,6 @@ void nook_pass_gbuffer(nook_renderer *renderer, const nook_frame *frame)
         gl->ClearNamedFramebufferfv(target.id, GL_COLOR, i, zero);
     gl->ClearNamedFramebufferfv(target.id, GL_DEPTH, 0, zero); /* reversed-Z: infinitely far */
     nook_draw_solid(renderer, frame->scene, &renderer->visible, renderer->gbuffer_program,
-                    renderer->gbuffer_masked_program, true);
+                    renderer->gbuffer_masked_program, frame->cull_back_faces);
     nook_raster_end(renderer->gpu);
 }

@@ -67,6 +67,9 @@ typedef struct nook_frame {
     size_t draw_count;
     nook_camera camera;
     const nook_lights *lights;
+    bool
+        cull_back_faces; /**< true: single-sided materials are not seen from behind, as glTF has it. false: every surface
+                               is seen from both sides, as rays, volumes and shadows see it. */
 } nook_frame;
 
 /** What nook_frame_finish writes into the image. */

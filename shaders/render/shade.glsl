@@ -33,18 +33,16 @@ vec3 reflect_light(Lit s, vec3 view, vec3 to_light)
     return (diffuse + fresnel * specular) * n_l;
 }
 
-// Fades light where the triangle turns away but its smooth normal does not yet (Chiang, Li, Burley, "Taming the Shadow
-// Terminator", 2019): without it coarse curved meshes show their facets at the edge of the light.
+// Fades light where the triangle turns away but its smooth normal does not yet. Slowly: a hard end at the triangle's own
+// horizon would show the facets of coarse curved meshes.
 float terminator(Lit s, vec3 to_light)
 {
-    float smooth_cosine = dot(s.normal, to_light) * dot(s.normal, s.geometric_normal);
-    float g = smooth_cosine > 0.0 ? clamp(dot(s.geometric_normal, to_light) / smooth_cosine, 0.0, 1.0) : 0.0;
-    return g * (1.0 + g * (1.0 - g));
+    return smoothstep(-0.25, 0.0, dot(s.geometric_normal, to_light));
 }
 
 float sun_arrives(Lit s)
 {
-    if (lights.sun_direction.w == 0.0)
+    if (lights.sun_direction.w == 0.0 || dot(s.normal, lights.sun_direction.xyz) <= 0.0)
         return 0.0;
     return sun_shadow(s.relative, s.geometric_normal) * terminator(s, lights.sun_direction.xyz);
 }

@@ -28,18 +28,19 @@ vec4 sun_reaches(vec2 corner, vec3 receiver, vec2 slope, float bias)
 float sun_shadow(vec3 relative, vec3 geometric)
 {
     const float size = float(textureSize(shadow_map, 0).x);
-    vec3 receiver = (frame.shadow_from_relative * vec4(relative, 1.0)).xyz;
-    if (any(lessThan(receiver, vec3(0.0))) || any(greaterThan(receiver, vec3(1.0))))
-        return 1.0;
-    receiver.xy *= size;
-
     mat3 rows = transpose(mat3(frame.shadow_from_relative));
     float depth_per_metre = length(rows[2]);
     // The normal in the sun's axes; z away from the sun, so a lit surface has z < 0.
     vec3 normal = vec3(dot(normalize(rows[0]), geometric), dot(normalize(rows[1]), geometric),
                        dot(rows[2], geometric) / depth_per_metre);
-    if (normal.z >= 0.0)
-        return 0.0;
+    // Near grazing light the point is lifted off its triangle, about to where the smooth surface would be that the
+    // triangles stand for: a facet of a coarse curved mesh must not shadow the next.
+    float grazing = 1.0 - clamp(-normal.z * 4.0, 0.0, 1.0);
+    vec3 lifted = relative + geometric * (6.0 * frame.shadow_texel * grazing * grazing);
+    vec3 receiver = (frame.shadow_from_relative * vec4(lifted, 1.0)).xyz;
+    if (any(lessThan(receiver, vec3(0.0))) || any(greaterThan(receiver, vec3(1.0))))
+        return 1.0;
+    receiver.xy *= size;
     float texel = frame.shadow_texel * depth_per_metre; // a texel's width as depth
     vec2 slope = -normal.xy / min(normal.z, -0.02) * texel;
     float bias = texel * 0.2 + 0.1 * length(slope);

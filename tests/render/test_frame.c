@@ -71,7 +71,7 @@ static void test_the_nearer_of_two_surfaces_is_seen(void **state)
     test_picture_destroy(&picture);
 }
 
-static void test_back_faces_are_culled_unless_double_sided(void **state)
+static void test_back_faces_are_seen_unless_culled_and_single_sided(void **state)
 {
     for (int mirrored = 0; mirrored < 2; mirrored++) {
         for (int double_sided = 0; double_sided < 2; double_sided++) {
@@ -81,6 +81,7 @@ static void test_back_faces_are_culled_unless_double_sided(void **state)
             test_scene_add_facing(&scene, 4.0f, 2.0f); /* behind; turned to the front by the transform */
             scene.materials[0].double_sided = double_sided;
             test_picture_create(&picture, test_gpu_of(state), &scene, 8, 8);
+            picture.frame.cull_back_faces = true;
             picture.draws[0].world_from_local = nook_matrix_scale(mirrored ? -1.0 : 1.0, 1.0, 1.0);
             picture.draws[0].world_from_local.m[14] = -4.0; /* in front, facing the camera */
             test_picture_render(&picture, NOOK_VIEW_LIT);
@@ -89,6 +90,9 @@ static void test_back_faces_are_culled_unless_double_sided(void **state)
             picture.draws[0].world_from_local.m[14] = 0.0;
             test_picture_render(&picture, NOOK_VIEW_LIT);
             assert_int_equal(test_picture_depth(&picture, 4, 4) > 0.0f, double_sided);
+            picture.frame.cull_back_faces = false;
+            test_picture_render(&picture, NOOK_VIEW_LIT);
+            assert_true(test_picture_depth(&picture, 4, 4) > 0.0f);
             test_picture_destroy(&picture);
         }
     }
@@ -264,7 +268,7 @@ int main(void)
         cmocka_unit_test(test_background_has_depth_zero),
         cmocka_unit_test(test_the_top_of_the_world_is_the_top_of_the_picture),
         cmocka_unit_test(test_the_nearer_of_two_surfaces_is_seen),
-        cmocka_unit_test(test_back_faces_are_culled_unless_double_sided),
+        cmocka_unit_test(test_back_faces_are_seen_unless_culled_and_single_sided),
         cmocka_unit_test(test_a_million_metres_from_the_origin_is_the_same_picture),
         cmocka_unit_test(test_draws_of_one_mesh_become_instances_in_their_places),
         cmocka_unit_test(test_draws_outside_the_view_or_singular_are_left_out),
