@@ -93,7 +93,7 @@ removefiles { "game/main.c" } -- of nook_game, the last project made
 
 local function link_everything()
   links(libraries)
-  links { "tinygltf", "stb", "embree3", "glfw", "EGL", "teem", "zstd", "xxhash", "stdc++", "dl", "m" }
+  links { "tinygltf", "stb", "embree3", "glfw", "EGL", "zstd", "xxhash", "z", "bz2", "stdc++", "dl", "m" }
 end
 
 c_project("nook", "ConsoleApp")

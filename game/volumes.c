@@ -41,7 +41,7 @@ static nook_result reserve(builder *b, const char *name)
     }
     if (!volume->name || !volume->positions || !volume->indices)
         return nook_fail(NOOK_E_MEMORY, "%s: no memory for %zu vertices", name, b->vertex_capacity);
-    strcpy(volume->name, name);
+    memcpy(volume->name, name, strlen(name) + 1);
     return NOOK_OK;
 }
 

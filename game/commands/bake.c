@@ -1,0 +1,123 @@
+#include "engine/core/file.h"
+#include "engine/core/log.h"
+#include "game/commands/commands.h"
+#include "game/volumes.h"
+#include <stdio.h>
+
+enum { PATH_CAPACITY = 4096 };
+
+static const char details[] =
+    "The resolution of a body follows from r_max: its voxels are r_max / 64, but it has at least 16 along its longest\n"
+    "side and at most half of --resolution. All that stands still shares one volume of --resolution. Instances share "
+    "a\n"
+    "bake. Blended (glass-like) materials are left out. Files are named by content: a second bake finds them.\n"
+    "Format: docs/volume_format.md.\n";
+
+static void tell_progress(void *user, const nook_scene_volume *done, uint32_t index, uint32_t count)
+{
+    (void)user;
+    nook_log_info("[%u/%u] %s: %u voxels a side, %.1f ms%s", index + 1, count, done->name, done->resolution,
+                  done->bake.ms, done->bake.cache_hit ? ", from the cache" : "");
+}
+
+static uint32_t count_instances(const nook_scene_volumes *volumes, uint32_t volume)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < volumes->occluder_count; i++)
+        count += volumes->occluders[i].volume == volume;
+    return count;
+}
+
+static void print_table(const nook_scene_volumes *volumes)
+{
+    size_t bytes = 0;
+    double ms = 0.0;
+    printf("%-28s %9s %6s %13s %10s %10s %10s %9s\n", "volume", "triangles", "uses", "voxels", "voxel m", "occupied",
+           "bytes", "ms");
+    for (uint32_t i = 0; i < volumes->volume_count; i++) {
+        const nook_scene_volume *v = &volumes->volumes[i];
+        const nook_volume_info *info = &v->bake.info;
+        char size[40], time[32];
+        snprintf(size, sizeof size, "%ux%ux%u", info->width, info->height, info->depth);
+        snprintf(time, sizeof time, "%.1f", v->bake.ms);
+        printf("%-28.28s %9zu %6u %13s %10.3g %10llu %10zu %9s\n", v->name, v->index_count / 3,
+               count_instances(volumes, i), size, info->voxel_size, (unsigned long long)info->occupied, v->bake.size,
+               v->bake.cache_hit ? "cached" : time);
+        bytes += v->bake.size;
+        ms += v->bake.ms;
+    }
+    printf("%u volumes, %u occluders, %zu bytes, %.1f ms, r_max %.4g m\n", volumes->volume_count,
+           volumes->occluder_count, bytes, ms, volumes->r_max);
+}
+
+static int bake_file(const char *path, const nook_volumes_desc *desc)
+{
+    nook_scene *scene;
+    nook_scene_volumes volumes;
+    const nook_scene_options geometry = { .skip_images = true };
+    if (nook_scene_load(path, &geometry, &scene) != NOOK_OK)
+        return NOOK_EXIT_FAILED;
+    nook_result result = nook_volumes_bake(scene, desc, &volumes);
+    nook_scene_destroy(scene);
+    if (result != NOOK_OK)
+        return NOOK_EXIT_FAILED;
+    if (volumes.volume_count == 0)
+        nook_log_warning("%s: nothing in it can be baked", path);
+    print_table(&volumes);
+    nook_volumes_free(&volumes);
+    return NOOK_EXIT_OK;
+}
+
+int nook_command_bake(const nook_app *app, int argc, char **argv)
+{
+    char default_cache[PATH_CAPACITY];
+    const char *cache = nook_path_join(default_cache, sizeof default_cache, app->root, "cache");
+    int32_t resolution = NOOK_VOLUMES_RESOLUTION_DEFAULT, threads = 0;
+    double r_max = 0.0;
+    const nook_option options[] = {
+        { .name = "resolution",
+          .kind = NOOK_OPTION_INT,
+          .target = &resolution,
+          .placeholder = "N",
+          .help = "voxels along the longest side of what stands still, and the limit for all; default 256",
+          .lowest = 1,
+          .highest = NOOK_VOXELIZE_RESOLUTION_MAX },
+        { .name = "r-max",
+          .kind = NOOK_OPTION_NUMBER,
+          .target = &r_max,
+          .placeholder = "M",
+          .help = "metres that ambient occlusion reaches; default 0.1 of the scene's diagonal",
+          .lowest = 1e-6,
+          .highest = 1e9 },
+        { .name = "cache",
+          .kind = NOOK_OPTION_TEXT,
+          .target = &cache,
+          .placeholder = "DIR",
+          .help = "where volumes are kept; default cache/ beside the sources" },
+        { .name = "threads",
+          .kind = NOOK_OPTION_INT,
+          .target = &threads,
+          .placeholder = "N",
+          .help = "default 0: one per processor",
+          .lowest = 0,
+          .highest = 1024 },
+    };
+    const nook_usage usage = { .command = "bake",
+                               .summary = "Makes the volumes that ambient occlusion comes from, one per rigid body.",
+                               .positionals = "SCENE",
+                               .positional_min = 1,
+                               .positional_max = 1,
+                               .options = options,
+                               .option_count = NOOK_COUNT(options),
+                               .details = details };
+    nook_arguments arguments;
+    int exit_code;
+    if (!nook_arguments_read(&usage, argc, argv, &arguments, &exit_code))
+        return exit_code;
+    const nook_volumes_desc desc = { .resolution = (uint32_t)resolution,
+                                     .r_max = r_max,
+                                     .cache_dir = cache,
+                                     .threads = (uint32_t)threads,
+                                     .progress = tell_progress };
+    return bake_file(arguments.positionals[0], &desc);
+}
