@@ -64,31 +64,32 @@ end
 
 local libraries = {} -- names in link order: what uses stands before what is used
 
--- A folder without sources (headers only, or not written yet) makes no library and is not linked.
+-- pattern: "/**.c" is the folder with all below it, "/*.c" without. A folder without sources (headers only, or not written yet) makes no library and is not linked.
 local function library(name, make_project, folder, pattern)
-  local sources = os.matchfiles(folder .. "/**" .. pattern)
+  local sources = os.matchfiles(folder .. pattern)
   if #sources == 0 then return end
   check_names(name, sources)
   make_project(name, "StaticLib")
-  files { folder .. "/**" .. pattern }
+  files { folder .. pattern }
   table.insert(libraries, 1, name)
 end
 
 -- Parts, lowest first; a part uses only what stands above it here (docs/architecture.md).
-library("nook_core", c_project, "engine/core", ".c")
-library("nook_platform", c_project, "engine/platform", ".c")
-library("nook_gpu", c_project, "engine/gpu", ".c")
-library("nook_ecs", c_project, "engine/ecs", ".c")
-library("nook_gltf", cpp_project, "engine/asset", ".cpp") -- the shim around tinygltf, behind a C header
-library("nook_asset", c_project, "engine/asset", ".c")
-library("nook_bake", c_project, "modules/bake", ".c")
-library("nook_ao", c_project, "modules/ao", ".c")
+library("nook_core", c_project, "engine/core", "/**.c")
+library("nook_platform", c_project, "engine/platform", "/**.c")
+library("nook_gpu", c_project, "engine/gpu", "/**.c")
+library("nook_ecs", c_project, "engine/ecs", "/**.c")
+library("nook_gltf", cpp_project, "engine/asset", "/**.cpp") -- the shim around tinygltf, behind a C header
+library("nook_asset", c_project, "engine/asset", "/**.c")
+library("nook_bake", c_project, "modules/bake", "/**.c")
+library("nook_ao", c_project, "modules/ao", "/*.c")
+library("nook_ao_ecs", c_project, "modules/ao/ecs", "/**.c") -- joins the two: the core itself knows no ECS
 local techniques = os.matchdirs("modules/ao_*")
 table.sort(techniques)
-for _, folder in ipairs(techniques) do library("nook_" .. path.getname(folder), c_project, folder, ".c") end
-library("nook_measure", c_project, "modules/measure", ".c")
-library("nook_render", c_project, "engine/render", ".c")
-library("nook_game", c_project, "game", ".c")
+for _, folder in ipairs(techniques) do library("nook_" .. path.getname(folder), c_project, folder, "/**.c") end
+library("nook_measure", c_project, "modules/measure", "/**.c")
+library("nook_render", c_project, "engine/render", "/**.c")
+library("nook_game", c_project, "game", "/**.c")
 removefiles { "game/main.c" } -- of nook_game, the last project made
 
 local function link_everything()
@@ -100,7 +101,7 @@ c_project("nook", "ConsoleApp")
 files { "game/main.c" }
 link_everything()
 
-library("nook_testing", c_project, "tests/support", ".c")
+library("nook_testing", c_project, "tests/support", "/**.c")
 
 local tests = os.matchfiles("tests/**.c")
 table.sort(tests)
