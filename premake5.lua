@@ -94,7 +94,7 @@ removefiles { "game/main.c" } -- of nook_game, the last project made
 
 local function link_everything()
   links(libraries)
-  links { "tinygltf", "stb", "embree3", "glfw", "EGL", "zstd", "xxhash", "z", "bz2", "stdc++", "dl", "m" }
+  links { "tinygltf", "stb", "embree3", "glfw", "zstd", "xxhash", "z", "bz2", "stdc++", "dl", "m" }
 end
 
 c_project("nook", "ConsoleApp")

@@ -123,7 +123,7 @@ void nook_buffer_read(nook_gpu *gpu, nook_buffer buffer, size_t offset, void *ou
  *
  * Files may #include "path" relative to source_root or to shaders/, as often as they like; a file with a line
  * `#pragma once` counts once. An #include is obeyed also inside #if. Errors name file and line through includes.
- * A file without #version gets `#version 450 core`.
+ * A file without #version gets `#version 450 core`. __LINE__ counts lines of the joined text.
  * @param defines   lines put after #version, for example "#define RAYS 8\n"; "" for none. Part of the identity.
  * @return NOOK_E_NOT_FOUND a file; NOOK_E_FORMAT includes go in a circle, too deep or are misspelt; NOOK_E_MEMORY;
  *         NOOK_E_DEVICE it does not compile or link (the driver's lines are in the log). *out_program is untouched then.

@@ -104,8 +104,10 @@ static nook_result load(egl_context *self, nook_context_reason *out_reason)
 
     const char *extensions = egl->query_string(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     if (!has_extension(extensions, "EGL_EXT_platform_base"))
-        return nook_context_refuse(out_reason, NOOK_E_DEVICE,
-                                   "egl: this driver has no EGL_EXT_platform_base; use --backend osmesa");
+        return nook_context_refuse(
+            out_reason, NOOK_E_DEVICE,
+            "egl: no driver behind libEGL.so.1 can do without a window; install libegl-mesa0 or the GPU's "
+            "own driver, or use --backend osmesa");
     egl->get_platform_display = (PFNEGLGETPLATFORMDISPLAYEXTPROC)egl->get_proc("eglGetPlatformDisplayEXT");
     self->surfaceless = has_extension(extensions, "EGL_MESA_platform_surfaceless");
     if (has_extension(extensions, "EGL_EXT_platform_device") &&
