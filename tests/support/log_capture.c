@@ -8,6 +8,7 @@ static void keep_line(void *user, nook_log_level level, const char *file, int li
     snprintf(capture->text, sizeof capture->text, "%s", text);
     capture->level = level;
     capture->count++;
+    capture->errors += level == NOOK_LOG_ERROR;
 }
 
 void nook_log_capture_begin(nook_log_capture *capture)

@@ -5,7 +5,8 @@
 typedef struct nook_log_capture {
     char text[2048];
     nook_log_level level;
-    int count;
+    int count;  /**< Lines of any level. */
+    int errors; /**< Those of level NOOK_LOG_ERROR. */
 } nook_log_capture;
 
 /** Empties the capture and sends all further lines to it alone. It must outlive the logging: see nook_log_capture_end. */
