@@ -1,0 +1,19 @@
+#pragma once
+#include "engine/asset/scene.h"
+#include "engine/render/renderer.h"
+
+/** Where a ray first meets the scene. */
+typedef struct nook_ray_hit {
+    double distance; /**< In lengths of `direction`; infinite when nothing is met. */
+    bool front;      /**< The side that the triangle shows; false from behind. */
+} nook_ray_hit;
+
+/** Asks every triangle: for the few rays that choosing a view takes. @param origin, direction  world, metres */
+nook_ray_hit nook_scene_cast(const nook_scene *scene, const double origin[3], const double direction[3]);
+
+/**
+ * A view from inside, for scenes that are rooms: walls around their middle, and hidden from `outside`.
+ * @param outside  the view from outside that would be taken otherwise
+ * @return false when the scene is no room; *out_camera is untouched then
+ */
+bool nook_camera_inside(const nook_scene *scene, const nook_camera *outside, nook_camera *out_camera);

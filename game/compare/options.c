@@ -1,0 +1,144 @@
+#include "game/compare/options.h"
+#include "engine/core/file.h"
+#include "engine/core/result.h"
+#include <string.h>
+
+/* The names that ao.scale knows, and the other ways to say them. */
+static bool read_scale(void *target, const char *text)
+{
+    static const char *const spellings[][5] = { { "full", "1", "1/1", "1.0", "full" },
+                                                { "half", "2", "1/2", "0.5", "half" },
+                                                { "quarter", "4", "1/4", "0.25", "quarter" } };
+    for (size_t i = 0; i < NOOK_COUNT(spellings); i++) {
+        for (size_t j = 0; j < NOOK_COUNT(spellings[i]); j++) {
+            if (strcmp(text, spellings[i][j]) == 0) {
+                *(const char **)target = spellings[i][0];
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+static bool read_backend(void *target, const char *text)
+{
+    return nook_backend_parse(text, target);
+}
+
+bool nook_compare_options_read(const nook_app *app, int argc, char **argv, nook_compare_options *out,
+                               int *out_exit_code)
+{
+    *out = (nook_compare_options){ .size = { 960, 540 }, .frames = 5, .out = "out", .backend = NOOK_BACKEND_AUTO };
+    out->scene = nook_path_join(out->default_scene, sizeof out->default_scene, app->root, "content/hall/hall.glb");
+    out->cache = nook_path_join(out->default_cache, sizeof out->default_cache, app->root, "cache");
+    const nook_option options[] = {
+        { .name = "camera",
+          .kind = NOOK_OPTION_TEXT,
+          .target = &out->camera,
+          .placeholder = "NAME|p,t,fov",
+          .help = "a camera of the scene, or px,py,pz,tx,ty,tz,fov: eye, target, degrees; default: the scene's first" },
+        { .name = "size",
+          .kind = NOOK_OPTION_SIZE,
+          .target = &out->size,
+          .placeholder = "WxH",
+          .lowest = 1,
+          .highest = 16384,
+          .help = "of the pictures in pixels; default 960x540" },
+        { .name = "r-max",
+          .kind = NOOK_OPTION_NUMBER,
+          .target = &out->r_max,
+          .placeholder = "M",
+          .lowest = 1e-9,
+          .highest = 1e9,
+          .help = "reach of the occlusion in metres; default: a tenth of the scene's diagonal" },
+        { .name = "falloff",
+          .kind = NOOK_OPTION_TEXT,
+          .target = &out->falloff,
+          .placeholder = "NAME",
+          .help = "hard, linear, quadratic, wendland or exponential" },
+        { .name = "techniques",
+          .kind = NOOK_OPTION_TEXT,
+          .target = &out->techniques,
+          .placeholder = "a,b,c",
+          .help = "which ones; default: all" },
+        { .name = "ao-scale",
+          .kind = NOOK_OPTION_CUSTOM,
+          .target = &out->ao_scale,
+          .placeholder = "S",
+          .read = read_scale,
+          .expects = "full, half or quarter (1, 1/2, 1/4)",
+          .help = "resolution of the trace: full, half or quarter" },
+        { .name = "param",
+          .kind = NOOK_OPTION_LIST,
+          .target = &out->params,
+          .placeholder = "technique.name=V",
+          .help = "sets a parameter; technique ao: those that all share" },
+        { .name = "reference-rays",
+          .kind = NOOK_OPTION_INT,
+          .target = &out->reference_rays,
+          .placeholder = "N",
+          .lowest = 1,
+          .highest = 65536,
+          .help = "rays per pixel of the ray-traced reference" },
+        { .name = "frames",
+          .kind = NOOK_OPTION_INT,
+          .target = &out->frames,
+          .placeholder = "N",
+          .lowest = 1,
+          .highest = 10000,
+          .help = "timed frames of each technique; default 5" },
+        { .name = "out",
+          .kind = NOOK_OPTION_TEXT,
+          .target = &out->out,
+          .placeholder = "DIR",
+          .help = "where the pictures and compare.json go; default out" },
+        { .name = "backend",
+          .kind = NOOK_OPTION_CUSTOM,
+          .target = &out->backend,
+          .placeholder = "NAME",
+          .read = read_backend,
+          .expects = "window, osmesa, egl or auto",
+          .help = "window, osmesa or egl; default: what this machine has" },
+        { .name = "resolution",
+          .kind = NOOK_OPTION_INT,
+          .target = &out->resolution,
+          .placeholder = "N",
+          .lowest = 1,
+          .highest = 510,
+          .help = "voxels along the longest side of a body" },
+        { .name = "cache",
+          .kind = NOOK_OPTION_TEXT,
+          .target = &out->cache,
+          .placeholder = "DIR",
+          .help = "where baked volumes are kept; default: cache/ of Nook" },
+        { .name = "no-window",
+          .kind = NOOK_OPTION_FLAG,
+          .target = &out->no_window,
+          .help = "write the files only, also where there is a display" },
+        { .name = "json",
+          .kind = NOOK_OPTION_FLAG,
+          .target = &out->json,
+          .help = "print compare.json instead of the table" },
+    };
+    const nook_usage usage = {
+        .command = "compare",
+        .summary =
+            "Compares the ambient-occlusion techniques on a glTF scene, default the demo level, with a ray-traced\n"
+            "reference: pictures, errors and times into --out. With a display it then opens a window.",
+        .positionals = "[SCENE]",
+        .positional_max = 1,
+        .options = options,
+        .option_count = NOOK_COUNT(options),
+        .details =
+            "Files: compare.png (everything on one sheet), <technique>.png and .pfm (visibility, 1 = open),\n"
+            "lit_<technique>.png, error_<technique>.png (blue: too bright, red: too dark), compare.json.\n"
+            "Window: drag left to orbit, right to pan, scroll to zoom; 1-9 choose the technique, 0 none, V the view,\n"
+            "C the camera; Esc quits.\n",
+    };
+    nook_arguments arguments;
+    if (!nook_arguments_read(&usage, argc, argv, &arguments, out_exit_code))
+        return false;
+    if (arguments.positional_count > 0)
+        out->scene = arguments.positionals[0];
+    return true;
+}

@@ -1,0 +1,30 @@
+#pragma once
+#include "engine/platform/context.h"
+#include "game/command.h"
+
+enum { NOOK_COMPARE_PATH_MAX = 4096 };
+
+/** The command line of `compare`, read but not yet held against the scene. Texts point into argv or into this struct. */
+typedef struct nook_compare_options {
+    const char *scene;
+    const char *camera; /**< Name or seven numbers; NULL: chosen (game/compare/camera.h). */
+    nook_option_size size;
+    double r_max;            /**< Metres; 0: a tenth of the diagonal of the scene's box. */
+    const char *falloff;     /**< For ao.falloff; NULL: as in modules/ao/params.def. */
+    const char *techniques;  /**< "a,b,c"; NULL: all. */
+    const char *ao_scale;    /**< For ao.scale, one of its choices; NULL: as in modules/ao/params.def. */
+    nook_option_list params; /**< "technique.name=value" */
+    int32_t reference_rays;  /**< 0: the reference's own default. */
+    int32_t frames;          /**< Timed ones of each technique. */
+    const char *out;
+    nook_backend backend;
+    int32_t resolution; /**< Voxels along a body's longest side; 0: the baker's own default. */
+    const char *cache;
+    bool no_window;
+    bool json; /**< compare.json on standard output instead of the table. */
+    char default_scene[NOOK_COMPARE_PATH_MAX], default_cache[NOOK_COMPARE_PATH_MAX];
+} nook_compare_options;
+
+/** nook_arguments_read for this command. @return false: return *out_exit_code from the command */
+bool nook_compare_options_read(const nook_app *app, int argc, char **argv, nook_compare_options *out,
+                               int *out_exit_code);

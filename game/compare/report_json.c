@@ -1,0 +1,165 @@
+#include "engine/core/json.h"
+#include "engine/core/log.h"
+#include "game/compare/report.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static double param_value(const nook_ao *ao, const char *technique, const nook_param *param)
+{
+    char name[128];
+    double value = NAN;
+    snprintf(name, sizeof name, "%s.%s", technique, param->name);
+    nook_ao_get_param(ao, name, &value);
+    return value;
+}
+
+const char *nook_report_param(const nook_ao *ao, const char *technique, const nook_param *param, char *out,
+                              size_t capacity)
+{
+    /* nook_param_print reads from a parameter struct: give it one of this parameter alone. */
+    nook_param alone = *param;
+    int32_t block = 0;
+    alone.offset = 0;
+    nook_param_set(&alone, technique, &block, param_value(ao, technique, param));
+    return nook_param_print(&alone, &block, out, capacity);
+}
+
+static void write_param(nook_json *json, const nook_ao *ao, const char *technique, const nook_param *param)
+{
+    char text[64];
+    if (param->type == NOOK_PARAM_CHOICE) {
+        nook_json_member_string(json, param->name, nook_report_param(ao, technique, param, text, sizeof text));
+        return;
+    }
+    nook_json_key(json, param->name);
+    if (param->type == NOOK_PARAM_FLOAT)
+        nook_json_float(json, (float)param_value(ao, technique, param));
+    else
+        nook_json_integer(json, (int64_t)param_value(ao, technique, param));
+}
+
+static void write_params(nook_json *json, const char *key, const nook_ao *ao, const char *technique,
+                         const nook_param *params, size_t count)
+{
+    nook_json_key(json, key);
+    nook_json_begin_object(json);
+    for (size_t i = 0; i < count; i++)
+        write_param(json, ao, technique, &params[i]);
+    nook_json_end_object(json);
+}
+
+static void write_errors(nook_json *json, const nook_errors *errors)
+{
+    nook_json_member_number(json, "rmse", errors->rmse);
+    nook_json_member_number(json, "mae", errors->mae);
+    nook_json_member_number(json, "bias", errors->bias);
+    nook_json_member_number(json, "p99", errors->p99);
+    nook_json_member_number(json, "max", errors->max);
+    nook_json_member_integer(json, "non_finite", (int64_t)errors->non_finite);
+}
+
+static void write_row(nook_json *json, const nook_ao *ao, const nook_compare_row *row)
+{
+    nook_json_begin_object(json);
+    nook_json_member_string(json, "name", row->technique->name);
+    nook_json_member_number(json, "ms_median", row->ms_median);
+    nook_json_member_number(json, "ms_min", row->ms_min);
+    nook_json_member_number(json, "ms_max", row->ms_max);
+    if (!isnan(row->gpu_ms_median))
+        nook_json_member_number(json, "gpu_ms_median", row->gpu_ms_median);
+    nook_json_member_integer(json, "frames", row->frames);
+    if (!row->technique->exact) {
+        write_errors(json, &row->errors);
+        nook_json_member_number(json, "texture_fetches_per_pixel", row->fetches_per_pixel);
+    }
+    write_params(json, "params", ao, row->technique->name, row->technique->params, row->technique->param_count);
+    nook_json_end_object(json);
+}
+
+static void write_camera(nook_json *json, const nook_report *report)
+{
+    const nook_camera *camera = &report->stage->frame.camera;
+    nook_json_key(json, "camera");
+    nook_json_begin_object(json);
+    nook_json_member_string(json, "name", report->comparison->camera);
+    nook_json_member_number(json, "fov_y_degrees", camera->fov_y_radians * 180.0 / 3.14159265358979323846);
+    nook_json_member_number(json, "z_near", camera->z_near);
+    nook_json_key(json, "view_from_world");
+    nook_json_numbers(json, camera->view_from_world.m, 16);
+    nook_json_end_object(json);
+}
+
+static void write_volumes(nook_json *json, const nook_game_world *world)
+{
+    uint32_t count;
+    const nook_world_volume *volumes = nook_game_world_volumes(world, &count);
+    nook_json_key(json, "volumes");
+    nook_json_begin_array(json);
+    for (uint32_t i = 0; i < count; i++) {
+        const double dimensions[] = { volumes[i].width, volumes[i].height, volumes[i].depth };
+        nook_json_begin_object(json);
+        nook_json_member_string(json, "name", volumes[i].name);
+        nook_json_key(json, "dimensions");
+        nook_json_numbers(json, dimensions, 3);
+        nook_json_member_number(json, "voxel_size", volumes[i].voxel_size);
+        nook_json_member_integer(json, "bytes", (int64_t)volumes[i].bytes);
+        nook_json_member_integer(json, "instances", volumes[i].instances);
+        nook_json_member_number(json, "bake_ms", volumes[i].bake_ms);
+        nook_json_member_bool(json, "cached", volumes[i].cached);
+        nook_json_end_object(json);
+    }
+    nook_json_end_array(json);
+}
+
+static void write_shared(nook_json *json, const nook_ao *ao)
+{
+    size_t count;
+    const nook_param *params = nook_ao_shared_params(&count);
+    write_param(json, ao, "ao", nook_param_find(params, count, "r_max"));
+    write_param(json, ao, "ao", nook_param_find(params, count, "falloff"));
+    write_params(json, "shared_params", ao, "ao", params, count);
+}
+
+static void write_all(nook_json *json, const nook_report *report)
+{
+    const nook_comparison *comparison = report->comparison;
+    const double size[] = { comparison->width, comparison->height };
+    nook_json_begin_object(json);
+    nook_json_member_string(json, "scene", report->scene_path);
+    nook_json_key(json, "size");
+    nook_json_numbers(json, size, 2);
+    write_camera(json, report);
+    write_shared(json, report->stage->ao);
+    nook_json_member_string(json, "renderer", report->stage->gpu->renderer);
+    nook_json_member_integer(json, "triangles", (int64_t)report->stage->scene->triangle_count);
+    nook_json_member_integer(json, "pixels_with_geometry", (int64_t)comparison->rows[0].errors.count);
+    write_volumes(json, report->stage->world);
+    nook_json_key(json, "reference");
+    write_row(json, report->stage->ao, &comparison->rows[0]);
+    nook_json_key(json, "techniques");
+    nook_json_begin_array(json);
+    for (uint32_t i = 1; i < comparison->row_count; i++)
+        write_row(json, report->stage->ao, &comparison->rows[i]);
+    nook_json_end_array(json);
+    nook_json_end_object(json);
+}
+
+nook_result nook_report_json(const nook_report *report, char **out_text, size_t *out_size)
+{
+    nook_json json = { 0 };
+    const char *text;
+    size_t size;
+    write_all(&json, report);
+    nook_result result = nook_json_finish(&json, &text, &size);
+    char *copy = result == NOOK_OK ? malloc(size + 1) : NULL;
+    if (copy) {
+        memcpy(copy, text, size + 1);
+        *out_text = copy;
+        *out_size = size;
+    } else if (result == NOOK_OK) {
+        result = nook_fail(NOOK_E_MEMORY, "no memory for the report");
+    }
+    nook_json_free(&json);
+    return result;
+}

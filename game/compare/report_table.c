@@ -1,0 +1,66 @@
+#include "engine/core/file.h"
+#include "game/compare/report.h"
+#include <math.h>
+
+static void print_number(FILE *stream, int width, const char *format, double value)
+{
+    char text[32] = "-";
+    if (isfinite(value))
+        snprintf(text, sizeof text, format, value);
+    fprintf(stream, " %*s", width, text);
+}
+
+static void print_row(FILE *stream, const nook_compare_row *row)
+{
+    fprintf(stream, "%-12s", row->technique->name);
+    print_number(stream, 10, "%.1f", row->ms_median);
+    print_number(stream, 10, "%.1f", row->ms_min);
+    print_number(stream, 10, "%.1f", row->ms_max);
+    if (!row->technique->exact) {
+        print_number(stream, 8, "%.4f", row->errors.rmse);
+        print_number(stream, 8, "%.4f", row->errors.mae);
+        print_number(stream, 8, "%+.4f", row->errors.bias);
+        print_number(stream, 8, "%.4f", row->errors.p99);
+        print_number(stream, 8, "%.4f", row->errors.max);
+        print_number(stream, 8, "%.1f", row->fetches_per_pixel);
+    }
+    fputc('\n', stream);
+}
+
+static void print_volumes(const nook_report *report, FILE *stream)
+{
+    uint32_t count, cached = 0;
+    uint64_t bytes = 0;
+    double ms = 0.0;
+    const nook_world_volume *volumes = nook_game_world_volumes(report->stage->world, &count);
+    for (uint32_t i = 0; i < count; i++) {
+        bytes += volumes[i].bytes;
+        cached += volumes[i].cached;
+        ms += volumes[i].bake_ms;
+    }
+    fprintf(stream, "%u volumes, %.1f MB", count, (double)bytes * 1e-6);
+    if (cached < count)
+        fprintf(stream, ", %u baked in %.0f ms", count - cached, ms);
+    fprintf(stream, "%s\n", cached == count ? ", all from the cache" : "");
+}
+
+void nook_report_print_table(const nook_report *report, FILE *stream)
+{
+    const nook_comparison *comparison = report->comparison;
+    char r_max[64], falloff[64];
+    size_t count;
+    const nook_param *params = nook_ao_shared_params(&count);
+    const nook_ao *ao = report->stage->ao;
+    fprintf(stream, "%s, %u x %u, camera %s, r_max %s m, falloff %s\n%s\n", nook_path_name(report->scene_path),
+            comparison->width, comparison->height, comparison->camera,
+            nook_report_param(ao, "ao", nook_param_find(params, count, "r_max"), r_max, sizeof r_max),
+            nook_report_param(ao, "ao", nook_param_find(params, count, "falloff"), falloff, sizeof falloff),
+            report->stage->gpu->renderer);
+    print_volumes(report, stream);
+    fprintf(stream, "\n%-12s %10s %10s %10s %8s %8s %8s %8s %8s %8s\n", "technique", "ms median", "min", "max", "RMSE",
+            "MAE", "bias", "99 %", "largest", "fetches");
+    for (uint32_t i = 0; i < comparison->row_count; i++)
+        print_row(stream, &comparison->rows[i]);
+    fprintf(stream, "\nErrors of visibility against the reference; bias + is too bright. Pictures: %s/compare.png\n",
+            report->out);
+}

@@ -1,0 +1,241 @@
+#include "game/compare/run.h"
+#include "engine/core/clock.h"
+#include "engine/core/log.h"
+#include "game/progress.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { WARM_UP_FRAMES = 2 };
+
+static const nook_ao_technique *find_technique(const nook_ao *ao, const char *name, size_t length)
+{
+    const nook_ao_technique *technique;
+    for (uint32_t i = 0; (technique = nook_ao_technique_at(ao, i)); i++) {
+        if (strlen(technique->name) == length && memcmp(technique->name, name, length) == 0)
+            return technique;
+    }
+    return NULL;
+}
+
+static nook_result refuse_technique(const nook_ao *ao, const char *name, size_t length)
+{
+    char names[256] = "";
+    size_t used = 0;
+    const nook_ao_technique *technique;
+    for (uint32_t i = 0; (technique = nook_ao_technique_at(ao, i)) && used < sizeof names; i++)
+        used += (size_t)snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "", technique->name);
+    return nook_fail(NOOK_E_NOT_FOUND, "technique '%.*s': choose from %s", (int)length, name, names);
+}
+
+static void choose(nook_compare_choice *choice, const nook_ao_technique *technique)
+{
+    for (uint32_t i = 0; i < choice->count; i++) {
+        if (choice->techniques[i] == technique)
+            return;
+    }
+    if (choice->count < NOOK_COMPARE_TECHNIQUES_MAX)
+        choice->techniques[choice->count++] = technique;
+}
+
+nook_result nook_compare_choose(const nook_ao *ao, const char *list, nook_compare_choice *out_choice)
+{
+    nook_compare_choice choice = { 0 };
+    const nook_ao_technique *technique;
+    for (uint32_t i = 0; (technique = nook_ao_technique_at(ao, i)); i++) {
+        if (technique->exact)
+            choose(&choice, technique);
+    }
+    for (uint32_t i = 0; !list && (technique = nook_ao_technique_at(ao, i)); i++)
+        choose(&choice, technique);
+    for (const char *at = list; at; at = *at ? at + 1 : NULL) {
+        size_t length = strcspn(at, ",");
+        technique = find_technique(ao, at, length);
+        if (!technique)
+            return refuse_technique(ao, at, length);
+        choose(&choice, technique);
+        at += length;
+    }
+    *out_choice = choice;
+    return NOOK_OK;
+}
+
+static int compare_doubles(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static double median(double *values, uint32_t count)
+{
+    qsort(values, count, sizeof *values, compare_doubles);
+    return 0.5 * (values[(count - 1) / 2] + values[count / 2]);
+}
+
+/* One frame's wall clock, and the GPU's own where it can be trusted. */
+static nook_result time_frame(nook_stage *stage, nook_gpu_timer timer, double *out_ms, double *out_gpu_ms)
+{
+    nook_gpu_finish(stage->gpu);
+    double start = nook_clock_ms();
+    if (timer.begin)
+        nook_gpu_timer_begin(stage->gpu, timer);
+    nook_result result = nook_stage_occlude(stage);
+    if (timer.begin)
+        nook_gpu_timer_end(stage->gpu, timer);
+    nook_gpu_finish(stage->gpu);
+    *out_ms = nook_clock_ms() - start;
+    *out_gpu_ms = timer.begin ? nook_gpu_timer_ms(stage->gpu, timer) : NAN;
+    return result;
+}
+
+static nook_result time_frames(nook_stage *stage, uint32_t warm_up, nook_compare_row *row)
+{
+    double *times = calloc(row->frames, 2 * sizeof *times);
+    if (!times)
+        return nook_fail(NOOK_E_MEMORY, "no memory for %u times", row->frames);
+    double *gpu_times = times + row->frames;
+    nook_gpu_timer timer = { 0 };
+    if (nook_gpu_timer_trusted(stage->gpu))
+        nook_gpu_timer_create(stage->gpu, &timer);
+    nook_result result = NOOK_OK;
+    for (uint32_t i = 0; i < warm_up && result == NOOK_OK; i++)
+        result = nook_stage_occlude(stage);
+    for (uint32_t i = 0; i < row->frames && result == NOOK_OK; i++)
+        result = time_frame(stage, timer, &times[i], &gpu_times[i]);
+    if (result == NOOK_OK) {
+        row->ms_median = median(times, row->frames); /* leaves them sorted */
+        row->ms_min = times[0];
+        row->ms_max = times[row->frames - 1];
+        row->gpu_ms_median = timer.begin ? median(gpu_times, row->frames) : NAN;
+    }
+    nook_gpu_timer_destroy(stage->gpu, &timer);
+    free(times);
+    return result;
+}
+
+/* Counting slows the shaders down, so it has a frame of its own. */
+static nook_result count_fetches(nook_stage *stage, nook_compare_row *row)
+{
+    nook_result result = nook_ao_set_param(stage->ao, "ao.count", 1.0);
+    if (result == NOOK_OK)
+        result = nook_stage_occlude(stage);
+    if (result != NOOK_OK)
+        return result;
+    nook_ao_statistics statistics;
+    nook_ao_get_statistics(stage->ao, &statistics);
+    row->fetches_per_pixel = statistics.fetches_per_pixel;
+    return nook_ao_set_param(stage->ao, "ao.count", 0.0);
+}
+
+static nook_result read_visibility(nook_stage *stage, nook_grey *out_grey)
+{
+    nook_ao_texture texture = nook_ao_visibility(stage->ao);
+    nook_result result = nook_grey_create(texture.width, texture.height, out_grey);
+    if (result != NOOK_OK)
+        return result;
+    nook_texture gl = { texture.native, GL_TEXTURE_2D, texture.width, texture.height, 1, GL_R32F };
+    nook_texture_read(stage->gpu, gl, GL_RED, GL_FLOAT, out_grey->values,
+                      (size_t)texture.width * texture.height * sizeof(float));
+    return NOOK_OK;
+}
+
+static nook_result read_lit(nook_stage *stage, nook_picture *out_picture)
+{
+    nook_result result = nook_picture_create(stage->width, stage->height, out_picture);
+    if (result != NOOK_OK)
+        return result;
+    nook_stage_finish(stage, true, NOOK_VIEW_LIT);
+    nook_renderer_read(stage->renderer, &out_picture->pixels->r);
+    return NOOK_OK;
+}
+
+static nook_result read_geometry(nook_stage *stage, uint8_t **out_geometry)
+{
+    size_t pixels = (size_t)stage->width * stage->height;
+    float *depth = malloc(pixels * sizeof *depth);
+    uint8_t *geometry = malloc(pixels);
+    if (!depth || !geometry) {
+        free(depth);
+        free(geometry);
+        return nook_fail(NOOK_E_MEMORY, "no memory to read back %zu pixels", pixels);
+    }
+    nook_texture_read(stage->gpu, nook_renderer_gbuffer(stage->renderer).depth, GL_DEPTH_COMPONENT, GL_FLOAT, depth,
+                      pixels * sizeof *depth);
+    for (size_t i = 0; i < pixels; i++)
+        geometry[i] = depth[i] > 0.0f; /* reversed: 0 is infinitely far */
+    free(depth);
+    *out_geometry = geometry;
+    return NOOK_OK;
+}
+
+static nook_result check_geometry(const nook_comparison *comparison)
+{
+    size_t pixels = (size_t)comparison->width * comparison->height;
+    for (size_t i = 0; i < pixels; i++) {
+        if (comparison->geometry[i])
+            return NOOK_OK;
+    }
+    return nook_fail(NOOK_E_NOT_FOUND, "the camera sees nothing of the scene; choose another with --camera");
+}
+
+static nook_result run_technique(nook_stage *stage, nook_compare_row *row)
+{
+    nook_result result = nook_ao_set_technique(stage->ao, row->technique->name);
+    if (result == NOOK_OK)
+        result = time_frames(stage, row->technique->exact ? 0 : WARM_UP_FRAMES, row);
+    if (result == NOOK_OK)
+        result = read_visibility(stage, &row->visibility);
+    if (result == NOOK_OK)
+        result = read_lit(stage, &row->lit);
+    row->fetches_per_pixel = NAN;
+    if (result == NOOK_OK && !row->technique->exact)
+        result = count_fetches(stage, row);
+    return result;
+}
+
+static nook_result run_row(nook_stage *stage, nook_comparison *comparison, uint32_t index, uint32_t frames)
+{
+    nook_compare_row *row = &comparison->rows[index];
+    char what[64];
+    row->frames = row->technique->exact ? 1 : frames;
+    snprintf(what, sizeof what, "tracing the %s", row->technique->name);
+    nook_progress progress = nook_progress_begin(what);
+    stage->progress = &progress;
+    nook_result result = run_technique(stage, row);
+    stage->progress = NULL;
+    nook_progress_end(&progress);
+    if (result != NOOK_OK)
+        return result;
+    return nook_errors_measure(row->visibility.values, comparison->rows[0].visibility.values, comparison->geometry,
+                               (size_t)comparison->width * comparison->height, &row->errors);
+}
+
+nook_result nook_compare_run(nook_stage *stage, const nook_camera *camera, const nook_compare_choice *choice,
+                             uint32_t frames, nook_comparison *out_comparison)
+{
+    *out_comparison = (nook_comparison){ .width = stage->width, .height = stage->height };
+    nook_result result = nook_stage_begin(stage, camera);
+    if (result == NOOK_OK)
+        result = read_geometry(stage, &out_comparison->geometry);
+    if (result == NOOK_OK)
+        result = check_geometry(out_comparison);
+    for (uint32_t i = 0; i < choice->count && result == NOOK_OK; i++) {
+        out_comparison->rows[i].technique = choice->techniques[i];
+        out_comparison->row_count = i + 1;
+        result = run_row(stage, out_comparison, i, frames);
+    }
+    if (result != NOOK_OK)
+        nook_comparison_free(out_comparison);
+    return result;
+}
+
+void nook_comparison_free(nook_comparison *comparison)
+{
+    for (uint32_t i = 0; i < comparison->row_count; i++) {
+        nook_grey_free(&comparison->rows[i].visibility);
+        nook_picture_free(&comparison->rows[i].lit);
+    }
+    free(comparison->geometry);
+    *comparison = (nook_comparison){ 0 };
+}

@@ -1,0 +1,52 @@
+#pragma once
+#include "engine/core/result.h"
+#include "game/compare/options.h"
+#include "game/stage.h"
+#include "modules/ao/technique.h"
+#include "modules/measure/errors.h"
+#include "modules/measure/pfm.h"
+#include "modules/measure/picture.h"
+
+enum { NOOK_COMPARE_TECHNIQUES_MAX = 16 };
+
+/** One technique on one frame. */
+typedef struct nook_compare_row {
+    const nook_ao_technique *technique;
+    double ms_median, ms_min, ms_max; /**< Of nook_ao_record, wall clock around glFinish. */
+    double gpu_ms_median;             /**< By timer queries; NaN where these lie (software GL). */
+    uint32_t frames;                  /**< Timed ones. */
+    double fetches_per_pixel;         /**< NaN for techniques that count none. */
+    nook_errors errors;               /**< Against the reference; of the reference itself all 0. */
+    nook_grey visibility;             /**< Owned. */
+    nook_picture lit;                 /**< Owned. */
+} nook_compare_row;
+
+/** What `compare` measures; the files, the table and the JSON are written from it. */
+typedef struct nook_comparison {
+    nook_compare_row rows[NOOK_COMPARE_TECHNIQUES_MAX]; /**< The reference first. */
+    uint32_t row_count;
+    uint8_t *geometry; /**< One byte a pixel, bottom row first: not 0 where something was drawn. Owned. */
+    uint32_t width, height;
+    char camera[256]; /**< What to call the view. */
+} nook_comparison;
+
+/** Which techniques a comparison runs: the exact one first, then those of a list. */
+typedef struct nook_compare_choice {
+    const nook_ao_technique *techniques[NOOK_COMPARE_TECHNIQUES_MAX];
+    uint32_t count;
+} nook_compare_choice;
+
+/**
+ * @param list  "volume,ssao"; NULL: all
+ * @return NOOK_E_NOT_FOUND an unknown name (the line lists them); NOOK_E_ARG nothing in the list
+ */
+nook_result nook_compare_choose(const nook_ao *ao, const char *list, nook_compare_choice *out_choice);
+
+/**
+ * Draws the G-buffer once, then records, times, counts and reads back every chosen technique on it.
+ * @param frames  timed ones of each technique; the reference is timed once
+ * @return why not; *out_comparison is zero then
+ */
+nook_result nook_compare_run(nook_stage *stage, const nook_camera *camera, const nook_compare_choice *choice,
+                             uint32_t frames, nook_comparison *out_comparison);
+void nook_comparison_free(nook_comparison *comparison); /**< Zeroed ones are allowed. */

@@ -1,0 +1,166 @@
+#include "game/stage.h"
+#include "engine/core/log.h"
+#include "game/techniques.h"
+#include <string.h>
+#include <unistd.h>
+
+/* G-buffer, light, AO and what is read back, bytes per pixel, rounded up; on software GL all of it is main memory. */
+static const double bytes_per_pixel = 160.0;
+
+static const uint32_t window_max[2] = { 1600, 900 };
+
+static nook_result check_size(const nook_stage_desc *desc)
+{
+    double need = bytes_per_pixel * desc->width * desc->height;
+    double have = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGE_SIZE);
+    if (need > 0.5 * have)
+        return nook_fail(NOOK_E_RANGE,
+                         "%u x %u pixels need about %.1f GB and this machine has %.1f; give a smaller --size",
+                         desc->width, desc->height, need * 1e-9, have * 1e-9);
+    return NOOK_OK;
+}
+
+static nook_result load_scene(nook_stage *stage, const char *path)
+{
+    nook_result result = nook_scene_load(path, NULL, &stage->scene);
+    if (result != NOOK_OK)
+        return result;
+    if (stage->scene->triangle_count == 0)
+        return nook_fail(NOOK_E_FORMAT, "%s: holds no triangles, so there is nothing to draw", path);
+    return NOOK_OK;
+}
+
+static nook_result open_devices(nook_stage *stage, const nook_stage_desc *desc)
+{
+    /* Shown when there is something to see in it. */
+    const nook_context_desc context = {
+        .backend = desc->backend,
+        .want_window = desc->want_window,
+        .width = desc->width < window_max[0] ? desc->width : window_max[0],
+        .height = desc->height < window_max[1] ? desc->height : window_max[1],
+        .hidden = true,
+    };
+    nook_result result = nook_context_create(&context, &stage->context);
+    if (result != NOOK_OK)
+        return result;
+    const nook_gpu_desc gpu = { nook_context_get_proc(stage->context), desc->root };
+    result = nook_gpu_create(&gpu, &stage->gpu);
+    if (result != NOOK_OK)
+        return result;
+    if (desc->width > stage->gpu->max_texture_size || desc->height > stage->gpu->max_texture_size)
+        return nook_fail(NOOK_E_RANGE, "%u x %u pixels: %s draws at most %u on a side; give a smaller --size",
+                         desc->width, desc->height, stage->gpu->renderer, stage->gpu->max_texture_size);
+    return NOOK_OK;
+}
+
+static void pass_progress_on(void *user, double fraction)
+{
+    const nook_stage *stage = user;
+    if (stage->progress)
+        nook_progress_update(stage->progress, fraction);
+}
+
+static nook_result open_ao(nook_stage *stage)
+{
+    const nook_ao_desc desc = { .version = NOOK_AO_VERSION,
+                                .gpu = stage->gpu,
+                                .width = stage->width,
+                                .height = stage->height,
+                                .max_occluders = 0,
+                                .progress = pass_progress_on,
+                                .progress_user = stage };
+    nook_result result = nook_ao_create(&desc, &stage->ao);
+    size_t count;
+    const nook_ao_technique *const *techniques = nook_techniques(&count);
+    for (size_t i = 0; i < count && result == NOOK_OK; i++)
+        result = nook_ao_add_technique(stage->ao, techniques[i]);
+    return result;
+}
+
+nook_result nook_stage_open(const nook_stage_desc *desc, nook_stage *out_stage)
+{
+    *out_stage = (nook_stage){ .width = desc->width, .height = desc->height };
+    nook_result result = check_size(desc);
+    if (result == NOOK_OK)
+        result = load_scene(out_stage, desc->scene_path);
+    if (result == NOOK_OK)
+        result = open_devices(out_stage, desc);
+    if (result == NOOK_OK)
+        result = open_ao(out_stage);
+    if (result != NOOK_OK)
+        nook_stage_close(out_stage);
+    return result;
+}
+
+nook_result nook_stage_fill(nook_stage *stage, const nook_game_world_desc *desc)
+{
+    nook_result result = nook_game_world_create(stage->scene, stage->ao, desc, &stage->world);
+    if (result == NOOK_OK)
+        result = nook_render_scene_create(stage->gpu, stage->scene, &stage->render_scene);
+    if (result == NOOK_OK)
+        result = nook_renderer_create(stage->gpu, stage->width, stage->height, &stage->renderer);
+    stage->lights = nook_lights_from_scene(stage->scene);
+    return result;
+}
+
+void nook_stage_close(nook_stage *stage)
+{
+    nook_renderer_destroy(stage->renderer);
+    nook_render_scene_destroy(stage->render_scene);
+    nook_game_world_destroy(stage->world);
+    nook_ao_destroy(stage->ao);
+    nook_gpu_destroy(stage->gpu);
+    nook_context_destroy(stage->context);
+    nook_scene_destroy(stage->scene);
+    *stage = (nook_stage){ 0 };
+}
+
+nook_result nook_stage_set_size(nook_stage *stage, uint32_t width, uint32_t height)
+{
+    nook_result result = nook_renderer_set_size(stage->renderer, width, height);
+    if (result == NOOK_OK)
+        result = nook_ao_set_size(stage->ao, width, height);
+    stage->width = width;
+    stage->height = height;
+    return result;
+}
+
+nook_result nook_stage_begin(nook_stage *stage, const nook_camera *camera)
+{
+    nook_result result = nook_game_world_update(stage->world, stage->ao);
+    if (result != NOOK_OK)
+        return result;
+    size_t draw_count;
+    const nook_draw *draws = nook_game_world_draws(stage->world, &draw_count);
+    stage->frame = (nook_frame){ .scene = stage->render_scene,
+                                 .draws = draws,
+                                 .draw_count = draw_count,
+                                 .camera = *camera,
+                                 .lights = &stage->lights };
+    return nook_frame_begin(stage->renderer, &stage->frame);
+}
+
+static nook_ao_texture ao_texture(nook_texture texture)
+{
+    return (nook_ao_texture){ texture.id, texture.width, texture.height };
+}
+
+nook_result nook_stage_occlude(nook_stage *stage)
+{
+    nook_gbuffer gbuffer = nook_renderer_gbuffer(stage->renderer);
+    nook_matrix clip_from_view = nook_renderer_clip_from_view(stage->renderer, &stage->frame.camera);
+    nook_ao_frame frame = { .depth = ao_texture(gbuffer.depth), .normal = ao_texture(gbuffer.geometric_normal) };
+    memcpy(frame.view_from_world, stage->frame.camera.view_from_world.m, sizeof frame.view_from_world);
+    memcpy(frame.clip_from_view, clip_from_view.m, sizeof frame.clip_from_view);
+    return nook_ao_record(stage->ao, &frame);
+}
+
+void nook_stage_finish(nook_stage *stage, bool occluded, nook_view view)
+{
+    nook_texture visibility = { 0 };
+    if (occluded) {
+        nook_ao_texture texture = nook_ao_visibility(stage->ao);
+        visibility = (nook_texture){ texture.native, GL_TEXTURE_2D, texture.width, texture.height, 1, GL_R32F };
+    }
+    nook_frame_finish(stage->renderer, &stage->frame, visibility, view);
+}

@@ -1,0 +1,55 @@
+/**
+ * stage.h - everything a picture needs, made in its one right order: context, GPU, scene, ambient occlusion, world, renderer.
+ */
+#pragma once
+#include "engine/asset/scene.h"
+#include "engine/platform/context.h"
+#include "engine/render/renderer.h"
+#include "game/progress.h"
+#include "game/world.h"
+#include "modules/ao/nook_ao.h"
+
+typedef struct nook_stage_desc {
+    const char *root; /**< The folder that holds shaders/. */
+    const char *scene_path;
+    nook_backend backend;
+    bool want_window;       /**< With NOOK_BACKEND_AUTO: a window where there is a display. */
+    uint32_t width, height; /**< Of the pictures, pixels. */
+} nook_stage_desc;
+
+/** Members are for reading, unless they say otherwise; the stage owns them. It must stay where it was opened. */
+typedef struct nook_stage {
+    uint32_t width, height;
+    nook_scene *scene;
+    nook_context *context;
+    nook_gpu *gpu;
+    nook_ao *ao; /**< With every technique. */
+    nook_game_world *world;
+    nook_render_scene *render_scene;
+    nook_renderer *renderer;
+    nook_lights lights;
+    nook_frame frame;        /**< The last one begun. */
+    nook_progress *progress; /**< Yours to set: told how far a long record is. NULL: nobody. */
+} nook_stage;
+
+/**
+ * Loads the scene and opens the devices: all that is cheap to fail. The AO takes parameters from here on.
+ * @return NOOK_E_RANGE a size that this machine cannot hold, NOOK_E_FORMAT nothing to draw, or why loading or GL failed;
+ *         *out_stage is zero then
+ */
+nook_result nook_stage_open(const nook_stage_desc *desc, nook_stage *out_stage);
+
+/** Bakes the volumes and uploads everything: the long part. @return why not; close the stage then */
+nook_result nook_stage_fill(nook_stage *stage, const nook_game_world_desc *desc);
+
+void nook_stage_close(nook_stage *stage); /**< Zeroed stages are allowed; becomes zero. */
+
+/** @return why not; the stage must be closed then */
+nook_result nook_stage_set_size(nook_stage *stage, uint32_t width, uint32_t height);
+
+/** Runs the systems, submits the occluders, draws the G-buffer. */
+nook_result nook_stage_begin(nook_stage *stage, const nook_camera *camera);
+/** Records the chosen technique on the last G-buffer. */
+nook_result nook_stage_occlude(nook_stage *stage);
+/** Lights the picture. @param occluded  false: as if everything were open */
+void nook_stage_finish(nook_stage *stage, bool occluded, nook_view view);

@@ -1,0 +1,18 @@
+#include "game/techniques.h"
+#include "modules/ao_hsao/hsao.h"
+#include "modules/ao_reference/reference.h"
+#include "modules/ao_ssao/ssao.h"
+#include "modules/ao_volume/volume.h"
+
+static const nook_ao_technique *const techniques[] = {
+    &nook_ao_volume_technique,
+    &nook_ao_ssao_technique,
+    &nook_ao_hsao_technique,
+    &nook_ao_reference_technique,
+};
+
+const nook_ao_technique *const *nook_techniques(size_t *out_count)
+{
+    *out_count = NOOK_COUNT(techniques);
+    return techniques;
+}

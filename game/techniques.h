@@ -1,0 +1,5 @@
+#pragma once
+#include "modules/ao/technique.h"
+
+/** Every technique of the program, in the order of menus; the exact one, the reference, last. @param out_count  rows */
+const nook_ao_technique *const *nook_techniques(size_t *out_count);

@@ -1,0 +1,233 @@
+#include "game/world.h"
+#include "engine/core/log.h"
+#include "game/draw_list.h"
+#include "game/progress.h"
+#include "game/volumes.h"
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct nook_game_world {
+    nook_world *entities;
+    nook_components components;
+    nook_draw *draws;
+    nook_ao_occluder *occluders;
+    nook_world_volume *volumes;
+    uint32_t volume_count;
+};
+
+static void show_bake(void *user, const nook_scene_volume *done, uint32_t index, uint32_t count)
+{
+    (void)done;
+    nook_progress_update(user, (index + 1.0) / count);
+}
+
+static nook_result bake(const nook_scene *scene, const nook_game_world_desc *desc, nook_scene_volumes *out_volumes)
+{
+    nook_progress progress = nook_progress_begin("baking volumes");
+    const nook_volumes_desc volumes = { .resolution = desc->resolution,
+                                        .r_max = desc->r_max,
+                                        .cache_dir = desc->cache,
+                                        .progress = show_bake,
+                                        .user = &progress };
+    nook_result result = nook_volumes_bake(scene, &volumes, out_volumes);
+    nook_progress_end(&progress);
+    return result;
+}
+
+static void describe_volume(const nook_scene_volumes *baked, uint32_t index, nook_world_volume *out)
+{
+    const nook_scene_volume *volume = &baked->volumes[index];
+    const nook_volume_info *info = &volume->bake.info;
+    *out = (nook_world_volume){ .width = info->width,
+                                .height = info->height,
+                                .depth = info->depth,
+                                .voxel_size = info->voxel_size,
+                                .bytes = (uint64_t)info->width * info->height * info->depth,
+                                .file_bytes = volume->bake.size,
+                                .bake_ms = volume->bake.ms,
+                                .cached = volume->bake.cache_hit };
+    snprintf(out->name, sizeof out->name, "%s", volume->name);
+    for (uint32_t i = 0; i < baked->occluder_count; i++)
+        out->instances += baked->occluders[i].volume == index;
+}
+
+/* Uploads a volume and its triangles. */
+static nook_result upload(nook_ao *ao, const nook_scene_volume *volume, nook_volume_occluder *out_occluder)
+{
+    nook_result result =
+        nook_ao_add_volume(ao, volume->name, volume->bake.bytes, volume->bake.size, &out_occluder->volume);
+    if (result != NOOK_OK)
+        return result;
+    return nook_ao_add_mesh(ao, volume->positions, volume->vertex_count, volume->indices, (uint32_t)volume->index_count,
+                            &out_occluder->mesh);
+}
+
+static nook_result add_transform(nook_game_world *world, nook_entity entity, const nook_matrix *matrix)
+{
+    nook_transform transform;
+    memcpy(transform.world_from_local, matrix->m, sizeof transform.world_from_local);
+    return nook_entity_add(world->entities, entity, world->components.transform, &transform);
+}
+
+/* An entity that stands somewhere, with nothing to show for it yet. */
+static nook_result make_body(nook_game_world *world, const nook_matrix *world_from_local, bool moving,
+                             nook_entity *out_entity)
+{
+    const nook_components *ids = &world->components;
+    const nook_component kinds[] = { ids->transform, ids->rigid_body };
+    nook_result result = nook_entity_create(world->entities, kinds, NOOK_COUNT(kinds), 1, out_entity);
+    if (result != NOOK_OK)
+        return result;
+    const nook_rigid_body body = { moving ? NOOK_MOTION_DYNAMIC : NOOK_MOTION_STATIC };
+    result = nook_entity_add(world->entities, *out_entity, ids->rigid_body, &body);
+    return result == NOOK_OK ? add_transform(world, *out_entity, world_from_local) : result;
+}
+
+/* One entity for each node with a mesh. @param of_node  scene->node_count of them */
+static nook_result make_nodes(nook_game_world *world, const nook_scene *scene, nook_entity *of_node)
+{
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        const nook_node *node = &scene->nodes[i];
+        if (node->mesh == NOOK_NONE)
+            continue;
+        nook_result result = make_body(world, &node->world_from_local, node->moving, &of_node[i]);
+        const nook_renderable renderable = { node->mesh, i };
+        if (result == NOOK_OK)
+            result = nook_entity_add(world->entities, of_node[i], world->components.renderable, &renderable);
+        if (result != NOOK_OK)
+            return result;
+    }
+    return NOOK_OK;
+}
+
+static nook_result make_occluders(nook_game_world *world, const nook_scene_volumes *baked, const nook_entity *of_node,
+                                  const nook_volume_occluder *of_volume)
+{
+    for (uint32_t i = 0; i < baked->occluder_count; i++) {
+        const nook_scene_occluder *occluder = &baked->occluders[i];
+        nook_entity entity;
+        nook_result result = NOOK_OK;
+        if (occluder->node == NOOK_NONE)
+            result = make_body(world, &occluder->world_from_mesh, false, &entity);
+        else
+            entity = of_node[occluder->node];
+        if (result == NOOK_OK)
+            result = nook_entity_add(world->entities, entity, world->components.volume_occluder,
+                                     &of_volume[occluder->volume]);
+        if (result != NOOK_OK)
+            return result;
+    }
+    return NOOK_OK;
+}
+
+static nook_result fill(nook_game_world *world, const nook_scene *scene, nook_ao *ao, const nook_scene_volumes *baked)
+{
+    nook_entity *of_node = calloc(scene->node_count + 1, sizeof *of_node);
+    nook_volume_occluder *of_volume = calloc(baked->volume_count + 1, sizeof *of_volume);
+    world->volumes = calloc(baked->volume_count + 1, sizeof *world->volumes);
+    world->volume_count = world->volumes ? baked->volume_count : 0;
+    nook_result result = NOOK_OK;
+    if (!of_node || !of_volume || !world->volumes)
+        result = nook_fail(NOOK_E_MEMORY, "%s: no memory for its entities", scene->path);
+    for (uint32_t i = 0; i < baked->volume_count && result == NOOK_OK; i++) {
+        describe_volume(baked, i, &world->volumes[i]);
+        result = upload(ao, &baked->volumes[i], &of_volume[i]);
+    }
+    if (result == NOOK_OK)
+        result = make_nodes(world, scene, of_node);
+    if (result == NOOK_OK)
+        result = make_occluders(world, baked, of_node, of_volume);
+    free(of_node);
+    free(of_volume);
+    return result;
+}
+
+/* The ECS world with its components, systems, and the lists that these fill. */
+static nook_result set_up(nook_game_world *world, const nook_scene *scene, uint32_t occluder_count)
+{
+    nook_result result = nook_world_create(NULL, &world->entities);
+    if (result != NOOK_OK)
+        return result;
+    world->draws = calloc(scene->node_count + 1, sizeof *world->draws);
+    world->occluders = calloc(occluder_count + 1, sizeof *world->occluders);
+    if (!world->draws || !world->occluders)
+        return nook_fail(NOOK_E_MEMORY, "%s: no memory for its lists of a frame", scene->path);
+    result = nook_components_register(world->entities, &world->components);
+    if (result == NOOK_OK)
+        result = nook_draw_list_set_up(world->entities, world->draws, scene->node_count);
+    if (result == NOOK_OK)
+        result = nook_occluders_set_up(world->entities, world->occluders, occluder_count);
+    return result;
+}
+
+nook_result nook_game_world_create(const nook_scene *scene, nook_ao *ao, const nook_game_world_desc *desc,
+                                   nook_game_world **out_world)
+{
+    *out_world = NULL;
+    nook_scene_volumes baked = { 0 };
+    nook_result result = bake(scene, desc, &baked);
+    if (result != NOOK_OK)
+        return result;
+    nook_game_world *world = calloc(1, sizeof *world);
+    if (world)
+        result = set_up(world, scene, baked.occluder_count);
+    else
+        result = nook_fail(NOOK_E_MEMORY, "%s: no memory for its world", scene->path);
+    if (result == NOOK_OK)
+        result = fill(world, scene, ao, &baked);
+    nook_volumes_free(&baked);
+    if (result != NOOK_OK) {
+        nook_game_world_destroy(world);
+        return result;
+    }
+    *out_world = world;
+    return NOOK_OK;
+}
+
+void nook_game_world_destroy(nook_game_world *world)
+{
+    if (!world)
+        return;
+    nook_world_destroy(world->entities);
+    free(world->draws);
+    free(world->occluders);
+    free(world->volumes);
+    free(world);
+}
+
+nook_result nook_game_world_update(nook_game_world *world, nook_ao *ao)
+{
+    nook_result result = nook_world_run_phase(world->entities, NOOK_PHASE_UPDATE);
+    if (result == NOOK_OK)
+        result = nook_world_run_phase(world->entities, NOOK_PHASE_PRE_RENDER);
+    if (result != NOOK_OK)
+        return result;
+    const nook_type type = NOOK_TYPE(nook_occluder_list);
+    const nook_occluder_list *list = nook_world_resource(world->entities, &type);
+    return nook_ao_submit_occluders(ao, list->items, list->count);
+}
+
+const nook_draw *nook_game_world_draws(const nook_game_world *world, size_t *out_count)
+{
+    const nook_type type = NOOK_TYPE(nook_draw_list);
+    const nook_draw_list *list = nook_world_resource(world->entities, &type);
+    *out_count = list->count;
+    return list->items;
+}
+
+const nook_world_volume *nook_game_world_volumes(const nook_game_world *world, uint32_t *out_count)
+{
+    *out_count = world->volume_count;
+    return world->volumes;
+}
+
+nook_world *nook_game_world_entities(nook_game_world *world)
+{
+    return world->entities;
+}
+
+const nook_components *nook_game_world_components(const nook_game_world *world)
+{
+    return &world->components;
+}

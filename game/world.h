@@ -1,0 +1,52 @@
+/**
+ * world.h - the ECS world made from a scene. Every node with a mesh is an entity with a transform, a rigid body and a
+ * renderable; those that move have their volume occluder beside these, and what stands still shares one of its own.
+ */
+#pragma once
+#include "engine/asset/scene.h"
+#include "engine/ecs/world.h"
+#include "engine/render/renderer.h"
+#include "game/components.h"
+#include "modules/ao/nook_ao.h"
+#include <stdbool.h>
+
+typedef struct nook_game_world nook_game_world;
+
+typedef struct nook_game_world_desc {
+    uint32_t resolution; /**< Of volumes, see game/volumes.h; 0: the default. */
+    double r_max;        /**< Metres; resolutions follow from it. */
+    const char *cache;   /**< Folder of baked volumes; NULL: none. */
+} nook_game_world_desc;
+
+/** A volume, for reports. */
+typedef struct nook_world_volume {
+    char name[64];
+    uint32_t width, height, depth; /**< Voxels. */
+    double voxel_size;             /**< Metres. */
+    uint64_t bytes;                /**< Of voxels, as they are on the GPU. */
+    uint64_t file_bytes;           /**< Of its .nkv file. */
+    uint32_t instances;            /**< Bodies that it stands for. */
+    double bake_ms;                /**< Wall time of baking, or of reading it from the cache. */
+    bool cached;
+} nook_world_volume;
+
+/**
+ * Bakes or reads the volumes (with progress on standard error), uploads them with their triangles, and makes the entities.
+ * @param scene, ao  outlive the world
+ * @return why not; *out_world is NULL then
+ */
+nook_result nook_game_world_create(const nook_scene *scene, nook_ao *ao, const nook_game_world_desc *desc,
+                                   nook_game_world **out_world);
+void nook_game_world_destroy(
+    nook_game_world *world); /**< NULL is allowed. Leaves what it uploaded to the AO's owner. */
+
+/** Runs one frame's systems and submits the occluders they collected. @return NOOK_E_MEMORY, NOOK_E_ARG */
+nook_result nook_game_world_update(nook_game_world *world, nook_ao *ao);
+
+/** What the last update collected; valid until the next. */
+const nook_draw *nook_game_world_draws(const nook_game_world *world, size_t *out_count);
+const nook_world_volume *nook_game_world_volumes(const nook_game_world *world, uint32_t *out_count);
+
+/** The entities themselves, for systems and tools. */
+nook_world *nook_game_world_entities(nook_game_world *world);
+const nook_components *nook_game_world_components(const nook_game_world *world);

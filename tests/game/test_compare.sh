@@ -1,0 +1,123 @@
+#!/usr/bin/env bash
+# The command `compare` from end to end, without a window, on a crate that stands on a floor.
+cd "${NOOK_ROOT:-$PWD}" || exit 1
+source tests/support/shell.sh
+tmp=${NOOK_TEST_TMP:-/tmp}
+crate=tests/game/data/crate.gltf
+unset DISPLAY WAYLAND_DISPLAY
+
+compare() { "${NOOK_PROGRAM:-build/release/bin/nook}" compare --backend osmesa --cache "$tmp/cache" "$@"; }
+
+compare_crate() { compare "$crate" --size 96x64 --frames 1 --reference-rays 16 "$@"; }
+
+png_size() { identify -format '%w x %h' "$1"; }
+
+# json_number FILE KEY: the first one of that name.
+json_number() { grep -m 1 "\"$2\"" "$1" | sed 's/.*: //; s/,.*//'; }
+
+test_compare_writes_every_file_of_the_report() {
+    local name file
+    compare_crate --out "$tmp/all" >"$tmp/table"
+    for name in reference volume ssao hsao; do
+        for file in "$name.png" "lit_$name.png"; do
+            [ "$(png_size "$tmp/all/$file")" = '96 x 64' ]
+        done
+        [ "$(head -c 14 "$tmp/all/$name.pfm" | tr '\n' ' ')" = 'Pf 96 64 -1.0 ' ]
+        [ "$(stat -c %s "$tmp/all/$name.pfm")" -eq $((14 + 96 * 64 * 4)) ]
+        assert_holds "$(cat "$tmp/table")" "$name"
+    done
+    for name in volume ssao hsao; do
+        [ "$(png_size "$tmp/all/error_$name.png")" = '96 x 64' ]
+    done
+    [ "$(identify -format '%w' "$tmp/all/compare.png")" -gt 800 ]
+    [ ! -e "$tmp/all/error_reference.png" ]
+    [ "$(find "$tmp/all" -type f | wc -l)" -eq $((4 * 3 + 3 + 2)) ] # nothing temporary is left
+}
+
+test_compare_json_holds_what_was_measured() {
+    compare_crate --out "$tmp/json" --techniques volume --camera corner --r-max 0.75 --falloff linear --json >"$tmp/printed"
+    cmp "$tmp/printed" "$tmp/json/compare.json"
+    local key
+    for key in scene size camera r_max falloff renderer volumes dimensions bytes bake_ms name ms_median ms_min ms_max rmse mae \
+        bias p99 max texture_fetches_per_pixel params; do
+        assert_holds "$(cat "$tmp/printed")" "\"$key\":"
+    done
+    [ "$(json_number "$tmp/printed" r_max)" = 0.75 ]
+    [ "$(json_number "$tmp/printed" size)" = '[96' ]
+    [ "$(json_number "$tmp/printed" falloff)" = '"linear"' ]
+    # Near the truth, but not the truth itself.
+    awk -v rmse="$(json_number "$tmp/printed" rmse)" 'BEGIN { exit !(rmse > 0 && rmse < 0.15) }'
+    awk -v fetches="$(json_number "$tmp/printed" texture_fetches_per_pixel)" 'BEGIN { exit !(fetches > 1 && fetches < 5000) }'
+}
+
+test_compare_gives_the_same_picture_twice() {
+    compare_crate --out "$tmp/once" --techniques volume,ssao
+    compare_crate --out "$tmp/twice" --techniques volume,ssao
+    local name
+    for name in reference volume ssao; do
+        cmp "$tmp/once/$name.pfm" "$tmp/twice/$name.pfm"
+    done
+}
+
+test_a_second_run_reads_volumes_from_the_cache() {
+    compare_crate --cache "$tmp/cache of its own" --out "$tmp/cached" --techniques ssao --json | grep -q '"cached": false'
+    compare_crate --cache "$tmp/cache of its own" --out "$tmp/cached" --techniques ssao --json >"$tmp/printed"
+    ! grep -q '"cached": false' "$tmp/printed"
+    grep -q '"cached": true' "$tmp/printed"
+}
+
+test_parameters_are_applied_and_reported() {
+    compare_crate --out "$tmp/params" --techniques volume --param volume.rays=3 --param volume.combine=multiply \
+        --param ao.filter=none --ao-scale 1/2 --json >"$tmp/printed"
+    assert_holds "$(cat "$tmp/printed")" '"rays": 3'
+    assert_holds "$(cat "$tmp/printed")" '"combine": "multiply"'
+    assert_holds "$(cat "$tmp/printed")" '"filter": "none"'
+    assert_holds "$(cat "$tmp/printed")" '"scale": "half"'
+}
+
+# refused TEXT ARGUMENT...: exit code 1, one line that holds TEXT, and no files.
+refused() {
+    local text=$1 said
+    shift
+    rm -rf "$tmp/refused"
+    said=$(assert_fails 1 compare --size 96x64 --frames 1 --out "$tmp/refused" "$@")
+    assert_holds "$said" "$text"
+    [ "$(wc -l <<<"$said")" -eq 1 ]
+    [ ! -e "$tmp/refused" ]
+}
+
+test_bad_input_is_one_line_and_leaves_nothing_behind() {
+    refused 'no such file' "$tmp/missing.glb"
+    refused 'directory' "$tmp"
+    printf 'glTF is not what this is' >"$tmp/broken.glb"
+    refused 'broken.glb' "$tmp/broken.glb"
+    refused "choose from volume, ssao, hsao, reference" "$crate" --techniques volume,magic
+    refused "'corner'" "$crate" --camera nowhere
+    refused 'field of view' "$crate" --camera 1,1,1,0,0,0,179
+    refused 'two points' "$crate" --camera 1,1,1,1,1,1,60
+    refused 'falloff' "$crate" --falloff sudden
+    refused 'rays' "$crate" --param volume.rays=0
+    refused 'nonsense' "$crate" --param volume.nonsense=1
+    refused 'magic' "$crate" --param magic.rays=1
+    refused 'technique.name=value' "$crate" --param volume.rays
+}
+
+test_a_camera_that_sees_nothing_is_refused() {
+    assert_holds "$(assert_fails 1 compare_crate --out "$tmp/nothing" --camera 0,5,0,0,9,0,40)" 'sees nothing'
+}
+
+test_an_output_folder_that_cannot_be_written_is_refused_before_the_work() {
+    printf 'a file' >"$tmp/in the way"
+    assert_holds "$(assert_fails 1 compare_crate --out "$tmp/in the way")" 'in the way'
+    assert_holds "$(assert_fails 1 compare_crate --out "$tmp/in the way/deeper")" 'in the way'
+    assert_holds "$(assert_fails 1 compare_crate --out /proc/nook)" '/proc/nook'
+    [ "$(cat "$tmp/in the way")" = 'a file' ]
+}
+
+
+test_one_pixel_is_a_picture() {
+    compare "$crate" --size 1x1 --frames 1 --reference-rays 4 --camera 1,2,3,0,0,0,40 --out "$tmp/one"
+    [ "$(png_size "$tmp/one/volume.png")" = '1 x 1' ]
+}
+
+run_tests

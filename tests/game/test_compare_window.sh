@@ -1,0 +1,87 @@
+#!/usr/bin/env bash
+# `compare` with a display: a window under Xvfb, steered with xdotool.
+cd "${NOOK_ROOT:-$PWD}" || exit 1
+source tests/support/shell.sh
+tmp=${NOOK_TEST_TMP:-/tmp}
+crate=tests/game/data/crate.gltf
+export tmp crate program=${NOOK_PROGRAM:-build/release/bin/nook}
+
+need_display() {
+    local tool
+    for tool in xvfb-run xdotool import; do
+        command -v $tool >/dev/null || skip_test "$tool is not installed"
+    done
+}
+
+# in_window SCRIPT: runs it beside the program, with its window in $window; the program must end with exit code 0.
+in_window() {
+    need_display
+    export script=$1
+    timeout 200 xvfb-run -a -s '-screen 0 800x600x24' bash -euc '
+        "$program" compare "$crate" --size 320x200 --frames 1 --reference-rays 4 --cache "$tmp/cache" --out "$tmp/out" \
+            >"$tmp/table" 2>"$tmp/log" &
+        program_id=$!
+        wait_for() { # SECONDS COMMAND...
+            local tries=$(($1 * 5))
+            shift
+            until "$@"; do
+                tries=$((tries - 1))
+                [ $tries -gt 0 ] && kill -0 $program_id || { echo "waited in vain for: $*"; cat "$tmp/log"; kill $program_id; exit 1; }
+                sleep 0.2
+            done
+        }
+        find_window() { window=$(xdotool search --onlyvisible --name "^Nook - crate" 2>/dev/null | head -n 1) && [ -n "$window" ]; }
+        title_has() { xdotool getwindowname "$window" | grep -q -- "$1"; }
+        press() { xdotool key --window "$window" "$1"; }
+        wait_for 120 find_window
+        eval "$script"
+        press Escape
+        wait $program_id
+    '
+}
+
+test_the_window_opens_after_the_comparison_and_escape_closes_it() {
+    rm -rf "$tmp/out"
+    in_window 'title_has "1 volume"; [ -s "$tmp/out/compare.json" ]'
+    grep -q '^hsao' "$tmp/table"
+}
+
+test_number_keys_choose_the_technique() {
+    in_window '
+        press 2; wait_for 30 title_has "2 ssao"
+        press 4; wait_for 30 title_has "4 reference"
+        press 0; wait_for 30 title_has "0 none"
+        press 9; press 3; wait_for 30 title_has "3 hsao"'
+    [ "$(grep -c 'view: technique' "$tmp/log")" -eq 5 ] # 9 is nobody
+}
+
+test_keys_choose_the_view_and_the_camera() {
+    in_window '
+        press v; wait_for 30 title_has "base_colour"
+        press c; wait_for 30 grep -q "view: camera corner" "$tmp/log"'
+}
+
+test_dragging_turns_the_picture_and_a_new_size_is_filled() {
+    in_window '
+        press 0; wait_for 30 title_has "0 none"
+        import -window root "$tmp/before.png"
+        xdotool mousemove --window "$window" 200 100 mousedown 1
+        sleep 0.3
+        xdotool mousemove --window "$window" 100 110
+        sleep 0.3
+        xdotool mouseup 1
+        differs() { import -window root "$tmp/after.png"; ! cmp -s "$tmp/before.png" "$tmp/after.png"; }
+        wait_for 30 differs
+        xdotool windowsize "$window" 500 300
+        filled() { import -window "$window" "$tmp/resized.png"; [ "$(convert "$tmp/resized.png" -crop 40x40+450+10 -format "%[fx:mean>0.2]" info:)" = 1 ]; }
+        wait_for 30 filled
+        [ "$(identify -format %wx%h "$tmp/resized.png")" = 500x300 ]'
+}
+
+test_no_window_is_opened_when_none_is_wanted() {
+    need_display
+    timeout 100 xvfb-run -a "$program" compare "$crate" --size 64x64 --frames 1 --reference-rays 4 --cache "$tmp/cache" \
+        --out "$tmp/out" --techniques ssao --no-window
+}
+
+run_tests
