@@ -58,11 +58,12 @@ static int bake_file(const char *path, const nook_volumes_desc *desc)
     if (nook_scene_load(path, &geometry, &scene) != NOOK_OK)
         return NOOK_EXIT_FAILED;
     nook_result result = nook_volumes_bake(scene, desc, &volumes);
+    bool drawn = scene->triangle_count > 0; /* else the loader has said so */
     nook_scene_destroy(scene);
     if (result != NOOK_OK)
         return NOOK_EXIT_FAILED;
-    if (volumes.volume_count == 0)
-        nook_log_warning("%s: nothing in it can be baked", path);
+    if (volumes.volume_count == 0 && drawn)
+        nook_log_warning("%s: all that it draws is blended or flattened: there is nothing to bake", path);
     print_table(&volumes);
     nook_volumes_free(&volumes);
     return NOOK_EXIT_OK;

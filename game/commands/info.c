@@ -3,6 +3,7 @@
 #include "engine/core/file.h"
 #include "engine/core/json.h"
 #include "game/commands/commands.h"
+#include "game/commands/info_scalar.h"
 #include "modules/bake/volume_file.h"
 #include <inttypes.h>
 #include <stdio.h>
@@ -155,8 +156,10 @@ int nook_command_info(const nook_app *app, int argc, char **argv)
         { .name = "json", .kind = NOOK_OPTION_FLAG, .target = &as_json, .help = "print one JSON object" },
     };
     const nook_usage usage = { .command = "info",
-                               .summary = "Says what a scene (.gltf, .glb) or a baked volume (.nkv) holds, as loaded.\n"
-                                          "Fails with the reason when the file is refused.",
+                               .summary =
+                                   "Says what a scene (.gltf, .glb), a baked volume (.nkv) or a scalar volume (.nrrd,\n"
+                                   ".nhdr) holds, as loaded. "
+                                   "Fails with the reason when the file is refused.",
                                .positionals = "FILE",
                                .positional_min = 1,
                                .positional_max = 1,
@@ -167,6 +170,10 @@ int nook_command_info(const nook_app *app, int argc, char **argv)
     if (!nook_arguments_read(&usage, argc, argv, &arguments, &exit_code))
         return exit_code;
     const char *path = arguments.positionals[0];
-    bool volume = strcasecmp(nook_path_extension(path), ".nkv") == 0;
-    return volume ? show_volume(path, as_json) : show_scene(path, as_json);
+    const char *extension = nook_path_extension(path);
+    if (strcasecmp(extension, ".nkv") == 0)
+        return show_volume(path, as_json);
+    if (strcasecmp(extension, ".nrrd") == 0 || strcasecmp(extension, ".nhdr") == 0)
+        return nook_info_scalar_volume(path, as_json);
+    return show_scene(path, as_json);
 }

@@ -26,14 +26,12 @@ static nook_result load_text(const char *header, const void *data, size_t size, 
                              nook_log_capture *log)
 {
     char path[512];
-    size_t header_size = strlen(header);
-    char *bytes = malloc(header_size + size + 1);
-    assert_non_null(bytes);
-    memcpy(bytes, header, header_size);
+    char bytes[2048];
+    int header_size = snprintf(bytes, sizeof bytes, "%s", header);
+    assert_true(header_size >= 0 && (size_t)header_size + size <= sizeof bytes);
     if (size > 0)
         memcpy(bytes + header_size, data, size);
-    write_scratch("test.nrrd", bytes, header_size + size, path);
-    free(bytes);
+    write_scratch("test.nrrd", bytes, (size_t)header_size + size, path);
     nook_log_capture_begin(log);
     nook_result result = nook_scalar_volume_load(path, out);
     nook_log_capture_end();

@@ -1,0 +1,135 @@
+#include "engine/core/file.h"
+#include "game/commands/commands.h"
+#include "tests/support/log_capture.h"
+#include "tests/support/scratch.h"
+#include <dirent.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+/* One triangle, (0,0,0) (1,0,0) (0,1,0), drawn by one node. */
+static const char scene_text[] =
+    "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
+    "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],"
+    "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\",\"min\":[0,0,0],\"max\":[1,"
+    "1,0]}],"
+    "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
+    "\"buffers\":[{\"byteLength\":36,\"uri\":\"data:application/octet-stream;base64,"
+    "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}";
+
+typedef struct bench {
+    char scene[512], cache[512];
+    nook_log_capture log;
+} bench;
+
+/* Visits the cache's entries. @return how many there were */
+static int count_cache(const bench *b, bool remove_them)
+{
+    int count = 0;
+    DIR *directory = opendir(b->cache);
+    for (struct dirent *entry; directory && (entry = readdir(directory));) {
+        char path[1024];
+        if (entry->d_name[0] == '.')
+            continue;
+        count++;
+        if (remove_them)
+            remove(nook_path_join(path, sizeof path, b->cache, entry->d_name));
+    }
+    if (directory)
+        closedir(directory);
+    return count;
+}
+
+static void prepare(bench *b)
+{
+    nook_scratch_path(b->scene, sizeof b->scene, "bake.gltf");
+    nook_scratch_path(b->cache, sizeof b->cache, "bake_cache");
+    count_cache(b, true);
+    assert_int_equal(nook_file_write(b->scene, scene_text, sizeof scene_text - 1), NOOK_OK);
+}
+
+static void clear(bench *b)
+{
+    count_cache(b, true);
+    rmdir(b->cache);
+    remove(b->scene);
+}
+
+static int run(bench *b, int argc, char **argv)
+{
+    const nook_app app = { .root = "." };
+    nook_log_capture_begin(&b->log);
+    int exit_code = nook_command_bake(&app, argc, argv);
+    nook_log_capture_end();
+    return exit_code;
+}
+
+static void test_bake_fills_the_cache_and_finds_it_again(void **state)
+{
+    (void)state;
+    bench b;
+    prepare(&b);
+    char *argv[] = { "bake", b.scene, "--cache", b.cache, "--resolution", "20", "--threads", "1", NULL };
+    assert_int_equal(run(&b, 8, argv), NOOK_EXIT_OK);
+    assert_int_equal(count_cache(&b, false), 1);
+    assert_null(strstr(b.log.text, "from the cache"));
+    assert_int_equal(run(&b, 8, argv), NOOK_EXIT_OK);
+    assert_int_equal(count_cache(&b, false), 1);
+    assert_non_null(strstr(b.log.text, "20 voxels a side"));
+    assert_non_null(strstr(b.log.text, "from the cache"));
+    clear(&b);
+}
+
+static void test_bake_goes_on_without_a_cache_that_cannot_be_made(void **state)
+{
+    (void)state;
+    bench b;
+    prepare(&b);
+    char inside_a_file[600];
+    nook_path_join(inside_a_file, sizeof inside_a_file, b.scene, "cache");
+    assert_int_equal(run(&b, 4, (char *[]){ "bake", b.scene, "--cache", inside_a_file, NULL }), NOOK_EXIT_OK);
+    clear(&b);
+}
+
+static void test_bake_fails_on_a_scene_that_does_not_load(void **state)
+{
+    (void)state;
+    bench b;
+    prepare(&b);
+    assert_int_equal(run(&b, 4, (char *[]){ "bake", "no such scene.glb", "--cache", b.cache, NULL }), NOOK_EXIT_FAILED);
+    assert_int_equal(b.log.count, 1);
+    assert_int_equal(run(&b, 4, (char *[]){ "bake", ".", "--cache", b.cache, NULL }), NOOK_EXIT_FAILED);
+    assert_int_equal(count_cache(&b, false), 0);
+    clear(&b);
+}
+
+static void test_bake_refuses_absurd_options(void **state)
+{
+    (void)state;
+    bench b;
+    prepare(&b);
+    static char *const wrong[][2] = { { "--resolution", "0" },    { "--resolution", "511" }, { "--resolution", "-5" },
+                                      { "--resolution", "many" }, { "--r-max", "0" },        { "--r-max", "-1" },
+                                      { "--r-max", "nan" },       { "--threads", "-1" },     { "--cache", "" } };
+    for (size_t i = 0; i < NOOK_COUNT(wrong); i++)
+        assert_int_equal(run(&b, 4, (char *[]){ "bake", b.scene, wrong[i][0], wrong[i][1], NULL }), NOOK_EXIT_USAGE);
+    assert_int_equal(run(&b, 1, (char *[]){ "bake", NULL }), NOOK_EXIT_USAGE);
+    assert_int_equal(run(&b, 3, (char *[]){ "bake", b.scene, b.scene, NULL }), NOOK_EXIT_USAGE);
+    clear(&b);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_bake_fills_the_cache_and_finds_it_again),
+        cmocka_unit_test(test_bake_goes_on_without_a_cache_that_cannot_be_made),
+        cmocka_unit_test(test_bake_fails_on_a_scene_that_does_not_load),
+        cmocka_unit_test(test_bake_refuses_absurd_options),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
