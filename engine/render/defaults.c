@@ -3,13 +3,13 @@
 #include "engine/render/internal.h"
 #include <math.h>
 
-static const float sky_top[3] = { 0.46f, 0.56f, 0.72f };
-static const float sky_bottom[3] = { 0.28f, 0.25f, 0.22f };
+static const float sky_top[3] = { 0.36f, 0.46f, 0.62f };
+static const float sky_bottom[3] = { 0.22f, 0.20f, 0.18f };
 
 nook_lights nook_lights_default(void)
 {
     nook_lights lights = {
-        .sun = { .direction = { 0.35, -1.0, -0.4 }, .colour = { 5.0f, 4.6f, 4.0f } },
+        .sun = { .direction = { 0.35, -1.0, -0.4 }, .colour = { 5.2f, 4.8f, 4.1f } },
         .exposure = 1.0f,
     };
     for (int i = 0; i < 3; i++) {
@@ -101,31 +101,54 @@ nook_lights nook_lights_from_scene(const nook_scene *scene)
     return lights;
 }
 
-/**
- * Where a camera of given axes and half angles' tangents stands to see all corners of a box, as large as possible.
- *
- * A corner (x, z) is seen when |x - eye_x| <= tangent * (eye_z - z), and likewise in y: for each side of the frustum the
- * corner that reaches farthest out decides, and opposite sides meet at the eye.
- */
-static void eye_that_holds(const nook_matrix *turn, const double half[3], const double tangent[2], double out[3])
+/** Corners of a box around the origin, in a camera's axes. */
+static void turned_corners(const nook_matrix *turn, const double half[3], double out[8][3])
 {
-    double reach[2][2] = { { -INFINITY, -INFINITY }, { -INFINITY, -INFINITY } }, nearest = -INFINITY;
     for (int i = 0; i < 8; i++) {
         double p[3];
         for (int k = 0; k < 3; k++)
             p[k] = (i >> k & 1) ? half[k] : -half[k];
-        nook_matrix_apply_vector(turn, p, p);
-        for (int k = 0; k < 2; k++) {
-            reach[k][0] = fmax(reach[k][0], p[k] + tangent[k] * p[2]);
-            reach[k][1] = fmax(reach[k][1], -p[k] + tangent[k] * p[2]);
+        nook_matrix_apply_vector(turn, p, out[i]);
+    }
+}
+
+/**
+ * How far back a camera stands to hold all corners between the sides of its frustum in one axis.
+ *
+ * A corner (x, z) is seen when |x - eye_x| <= tangent * (eye_z - z): on each side the corner that reaches farthest out
+ * decides, and the two sides meet at the eye.
+ */
+static double distance_to_hold(double corners[8][3], int axis, double tangent)
+{
+    double high = -INFINITY, low = -INFINITY;
+    for (int i = 0; i < 8; i++) {
+        high = fmax(high, corners[i][axis] + tangent * corners[i][2]);
+        low = fmax(low, -corners[i][axis] + tangent * corners[i][2]);
+    }
+    return (high + low) / (2.0 * tangent);
+}
+
+/** Where the eye stands in one axis so that as much of the picture is left free on either side of the corners. */
+static double centre_in_picture(double corners[8][3], int axis, double distance)
+{
+    double low = corners[0][axis], high = low;
+    for (int i = 1; i < 8; i++) {
+        low = fmin(low, corners[i][axis]);
+        high = fmax(high, corners[i][axis]);
+    }
+    for (int step = 0; step < 60; step++) { /* bisection: the sum below falls as the eye goes up */
+        double eye = 0.5 * (low + high), least = INFINITY, most = -INFINITY;
+        for (int i = 0; i < 8; i++) {
+            double place = (corners[i][axis] - eye) / (distance - corners[i][2]);
+            least = fmin(least, place);
+            most = fmax(most, place);
         }
-        nearest = fmax(nearest, p[2]);
+        if (least + most > 0.0)
+            low = eye;
+        else
+            high = eye;
     }
-    out[2] = nearest;
-    for (int k = 0; k < 2; k++) {
-        out[k] = 0.5 * (reach[k][0] - reach[k][1]);
-        out[2] = fmax(out[2], (reach[k][0] + reach[k][1]) / (2.0 * tangent[k]));
-    }
+    return 0.5 * (low + high);
 }
 
 nook_camera nook_camera_frame(const double bounds_min[3], const double bounds_max[3], double aspect)
@@ -141,15 +164,19 @@ nook_camera nook_camera_frame(const double bounds_min[3], const double bounds_ma
     double size = sqrt(half[0] * half[0] + half[1] * half[1] + half[2] * half[2]);
     if (size == 0.0) /* a point */
         size = half[0] = half[1] = half[2] = 0.5;
-    const double tangent[2] = { margin * tan(0.5 * fov_y) * aspect, margin * tan(0.5 * fov_y) };
+    const double tangent = margin * tan(0.5 * fov_y);
     nook_matrix turn = nook_matrix_look_at(zero, towards, up);
-    eye_that_holds(&turn, half, tangent, eye);
+    double corners[8][3];
+    turned_corners(&turn, half, corners);
+    eye[2] = fmax(distance_to_hold(corners, 0, tangent * aspect), distance_to_hold(corners, 1, tangent));
+    eye[2] += 0.01 * size; /* a flat box seen from its own plane would touch the eye */
+    eye[0] = centre_in_picture(corners, 0, eye[2]);
+    eye[1] = centre_in_picture(corners, 1, eye[2]);
     nook_matrix move = nook_matrix_translation(-centre[0], -centre[1], -centre[2]);
     nook_camera camera = { .fov_y_radians = fov_y, .z_near = 2e-3 * size };
     camera.view_from_world = nook_matrix_multiply(&turn, &move);
     for (int i = 0; i < 3; i++)
         camera.view_from_world.m[12 + i] -= eye[i];
-    camera.view_from_world.m[14] -= 2.0 * camera.z_near; /* so that a flat box does not touch the near plane */
     return camera;
 }
 

@@ -96,6 +96,77 @@ static void test_shadow_reaches_the_foot_of_a_wall(void **state)
     test_picture_destroy(&picture);
 }
 
+static void test_no_sun_leaks_in_where_a_wall_meets_the_ceiling(void **state)
+{
+    test_scene scene;
+    test_picture picture;
+    test_scene_init(&scene);
+    test_scene_add_facing(&scene, 2.0f, -3.0f);
+    test_scene_add_level(&scene, 2.0f, 0.0f, 2.0f, -1.0f, false); /* from above the camera to the wall's upper edge */
+    test_picture_create(&picture, test_gpu_of(state), &scene, 300, 300);
+    picture.frame.camera.view_from_world = nook_matrix_translation(0, -1.95, 2.9); /* the edge is at row 75 */
+    picture.frame.camera.z_near = 0.01;
+    for (int i = 0; i < 5; i++) {
+        int leaks = 0;
+        picture.lights = only_sun;
+        picture.lights.sun.direction[0] = 0.1 * i;
+        picture.lights.sun.direction[2] = -0.5 - 0.1 * i;
+        test_picture_render(&picture, NOOK_VIEW_SHADOW);
+        for (uint32_t y = 76; y < 90; y++) {
+            for (uint32_t x = 0; x < 300; x++)
+                leaks += test_picture_at(&picture, x, y)[0] > 40;
+        }
+        assert_true(leaks <= 2 * 300); /* two rows: 1.3 mm, less than a texel of the map */
+    }
+    test_picture_destroy(&picture);
+}
+
+static void test_facets_of_a_smooth_surface_do_not_show_at_the_edge_of_light(void **state)
+{
+    test_scene scene;
+    test_picture picture;
+    test_scene_init(&scene);
+    test_scene_add_facing(&scene, 1.0f, -2.0f);
+    test_scene_add_level(&scene, 50.0f, 0, -50, 0, true); /* makes a facet a few texels, as in a scene */
+    for (int i = 0; i < 4; i++) { /* the triangle turns 3 degrees from the sun, its smooth normal 3 towards it */
+        scene.vertices[i].normal[0] = -0.1f;
+        scene.vertices[i].normal[2] = 0.995f;
+    }
+    test_picture_create(&picture, test_gpu_of(state), &scene, 16, 16);
+    picture.lights = only_sun;
+    picture.lights.sun.direction[0] = 1.0;
+    picture.lights.sun.direction[1] = 0.0;
+    picture.lights.sun.direction[2] = 0.05;
+    test_picture_render(&picture, NOOK_VIEW_SHADOW);
+    assert_true(test_picture_at(&picture, 8, 8)[0] > 128);
+    picture.lights.sun.direction[2] = 0.5; /* far behind */
+    test_picture_render(&picture, NOOK_VIEW_SHADOW);
+    assert_int_equal(test_picture_at(&picture, 8, 8)[0], 0);
+    test_picture_destroy(&picture);
+}
+
+static void test_shadows_follow_what_moves(void **state)
+{
+    test_scene scene;
+    test_picture picture;
+    make_roof(state, &scene, &picture);
+    picture.lights = only_sun;
+    test_picture_render(&picture, NOOK_VIEW_SHADOW);
+    assert_int_equal(floor_at(&picture, 0.0, -3.0)[0], 0);
+    picture.draws[1].world_from_local = nook_matrix_translation(1.2, 0, 0);
+    test_picture_render(&picture, NOOK_VIEW_SHADOW);
+    assert_int_equal(floor_at(&picture, 0.0, -3.0)[0], 255);
+    assert_int_equal(floor_at(&picture, 1.2, -3.0)[0], 0);
+    picture.lights.sun.direction[0] = -0.6; /* 2 m below the roof: 1.2 m to the left */
+    test_picture_render(&picture, NOOK_VIEW_SHADOW);
+    assert_int_equal(floor_at(&picture, 0.0, -3.0)[0], 0);
+    assert_int_equal(floor_at(&picture, 1.2, -3.0)[0], 255);
+    picture.lights.sun = (nook_sun){ .direction = { 0, -1, 0 } }; /* black: there is none */
+    test_picture_render(&picture, NOOK_VIEW_SHADOW);
+    assert_int_equal(floor_at(&picture, 1.2, -3.0)[0], 0);
+    test_picture_destroy(&picture);
+}
+
 static void test_masked_surfaces_cast_the_shadow_of_what_is_left(void **state)
 {
     test_scene scene;
@@ -321,6 +392,9 @@ int main(void)
         cmocka_unit_test(test_a_floor_is_dark_under_a_roof_and_lit_beside_it),
         cmocka_unit_test(test_flat_surfaces_never_shadow_themselves),
         cmocka_unit_test(test_shadow_reaches_the_foot_of_a_wall),
+        cmocka_unit_test(test_no_sun_leaks_in_where_a_wall_meets_the_ceiling),
+        cmocka_unit_test(test_facets_of_a_smooth_surface_do_not_show_at_the_edge_of_light),
+        cmocka_unit_test(test_shadows_follow_what_moves),
         cmocka_unit_test(test_masked_surfaces_cast_the_shadow_of_what_is_left),
         cmocka_unit_test(test_visibility_takes_ambient_light_and_leaves_the_sun),
         cmocka_unit_test(test_visibility_view_shows_its_numbers_as_they_are),
