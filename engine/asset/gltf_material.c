@@ -36,8 +36,8 @@ const nook_gltf_slot *nook_gltf_material_uv_slot(const nook_gltf *gltf, uint32_t
 
 static bool same_coordinates(const nook_gltf_slot *a, const nook_gltf_slot *b)
 {
-    return a->texcoord == b->texcoord && a->rotation == b->rotation &&
-           memcmp(a->offset, b->offset, sizeof a->offset) == 0 && memcmp(a->scale, b->scale, sizeof a->scale) == 0;
+    return a->texcoord == b->texcoord && a->rotation == b->rotation && a->offset[0] == b->offset[0] &&
+           a->offset[1] == b->offset[1] && a->scale[0] == b->scale[0] && a->scale[1] == b->scale[1];
 }
 
 /* A vertex carries one pair of coordinates; say so when a material wants two. */

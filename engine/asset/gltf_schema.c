@@ -7,63 +7,32 @@
 /* tinygltf keeps the counts and offsets of sparse accessors in int. */
 #define INT_LIMIT INT_MAX
 
-#define INTEGER(n, least, most)                                          \
-    {                                                                    \
-        .name = n, .kind = NOOK_GLTF_INTEGER, .low = least, .high = most \
-    }
-#define NEEDED_INTEGER(n, least, most)                                                     \
-    {                                                                                      \
-        .name = n, .kind = NOOK_GLTF_INTEGER, .required = true, .low = least, .high = most \
-    }
-#define REFERENCE(n, array)                                 \
-    {                                                       \
-        .name = n, .kind = NOOK_GLTF_REFERENCE, .of = array \
-    }
-#define NEEDED_REFERENCE(n, array)                                            \
-    {                                                                         \
-        .name = n, .kind = NOOK_GLTF_REFERENCE, .required = true, .of = array \
-    }
-#define REFERENCES(n, array)                                 \
-    {                                                        \
-        .name = n, .kind = NOOK_GLTF_REFERENCES, .of = array \
-    }
-#define NUMBER(n)                           \
-    {                                       \
-        .name = n, .kind = NOOK_GLTF_NUMBER \
-    }
-#define NUMBERS(n, count)                                  \
-    {                                                      \
-        .name = n, .kind = NOOK_GLTF_NUMBERS, .low = count \
-    }
-#define BOOLEAN(n)                           \
-    {                                        \
-        .name = n, .kind = NOOK_GLTF_BOOLEAN \
-    }
-#define STRING(n)                           \
-    {                                       \
-        .name = n, .kind = NOOK_GLTF_STRING \
-    }
-#define OBJECT(n, table)                                      \
-    {                                                         \
-        .name = n, .kind = NOOK_GLTF_OBJECT, .members = table \
-    }
-#define NEEDED_OBJECT(n, table)                                                 \
-    {                                                                           \
-        .name = n, .kind = NOOK_GLTF_OBJECT, .required = true, .members = table \
-    }
-#define LIST(n, table)                                      \
-    {                                                       \
-        .name = n, .kind = NOOK_GLTF_LIST, .members = table \
-    }
-#define END          \
-    {                \
-        .name = NULL \
-    }
+/* clang-format off */
+#define MEMBER(n, k, needed, array, table, least, most) \
+    { (n), NOOK_GLTF_##k, (needed), (array), (table), (least), (most) }
+#define INTEGER(n, least, most)        MEMBER(n, INTEGER, false, NULL, NULL, least, most)
+#define NEEDED_INTEGER(n, least, most) MEMBER(n, INTEGER, true, NULL, NULL, least, most)
+#define REFERENCE(n, array)            MEMBER(n, REFERENCE, false, array, NULL, 0, 0)
+#define NEEDED_REFERENCE(n, array)     MEMBER(n, REFERENCE, true, array, NULL, 0, 0)
+#define REFERENCES(n, array)           MEMBER(n, REFERENCES, false, array, NULL, 0, 0)
+#define NEEDED_REFERENCES(n, array)    MEMBER(n, REFERENCES, true, array, NULL, 0, 0)
+#define NUMBER(n)                      MEMBER(n, NUMBER, false, NULL, NULL, 0, 0)
+#define NUMBERS(n, count)              MEMBER(n, NUMBERS, false, NULL, NULL, count, 0)
+#define BOOLEAN(n)                     MEMBER(n, BOOLEAN, false, NULL, NULL, 0, 0)
+#define STRING(n)                      MEMBER(n, STRING, false, NULL, NULL, 0, 0)
+#define NEEDED_STRING(n)               MEMBER(n, STRING, true, NULL, NULL, 0, 0)
+#define STRINGS(n)                     MEMBER(n, STRINGS, false, NULL, NULL, 0, 0)
+#define OBJECT(n, table)               MEMBER(n, OBJECT, false, NULL, table, 0, 0)
+#define NEEDED_OBJECT(n, table)        MEMBER(n, OBJECT, true, NULL, table, 0, 0)
+#define LIST(n, table)                 MEMBER(n, LIST, false, NULL, table, 0, 0)
+#define NEEDED_LIST(n, table)          MEMBER(n, LIST, true, NULL, table, 0, 0)
+#define END                            MEMBER(NULL, INTEGER, false, NULL, NULL, 0, 0)
+/* clang-format on */
 
 typedef const nook_gltf_member table[];
 
 static table asset = {
-    { .name = "version", .kind = NOOK_GLTF_STRING, .required = true },
+    NEEDED_STRING("version"),
     STRING("minVersion"),
     END,
 };
@@ -101,7 +70,7 @@ static table accessor = {
     NEEDED_INTEGER("componentType", 5120, 5126),
     BOOLEAN("normalized"),
     NEEDED_INTEGER("count", 1, SIZE_LIMIT),
-    { .name = "type", .kind = NOOK_GLTF_STRING, .required = true },
+    NEEDED_STRING("type"),
     NUMBERS("min", 0),
     NUMBERS("max", 0),
     OBJECT("sparse", sparse),
@@ -110,15 +79,15 @@ static table accessor = {
 };
 
 static table primitive = {
-    { .name = "attributes", .kind = NOOK_GLTF_REFERENCE_MAP, .required = true, .of = "accessors" },
+    MEMBER("attributes", REFERENCE_MAP, true, "accessors", NULL, 0, 0),
     REFERENCE("indices", "accessors"),
     REFERENCE("material", "materials"),
     INTEGER("mode", 0, 6),
-    { .name = "targets", .kind = NOOK_GLTF_MAP_LIST, .of = "accessors" },
+    MEMBER("targets", MAP_LIST, false, "accessors", NULL, 0, 0),
     END,
 };
 static table mesh = {
-    { .name = "primitives", .kind = NOOK_GLTF_LIST, .required = true, .members = primitive },
+    NEEDED_LIST("primitives", primitive),
     NUMBERS("weights", 0),
     STRING("name"),
     END,
@@ -191,7 +160,7 @@ static table sampler = {
 static table perspective = { NUMBER("aspectRatio"), NUMBER("yfov"), NUMBER("zfar"), NUMBER("znear"), END };
 static table orthographic = { NUMBER("xmag"), NUMBER("ymag"), NUMBER("zfar"), NUMBER("znear"), END };
 static table camera = {
-    { .name = "type", .kind = NOOK_GLTF_STRING, .required = true },
+    NEEDED_STRING("type"),
     OBJECT("perspective", perspective),
     OBJECT("orthographic", orthographic),
     STRING("name"),
@@ -200,7 +169,7 @@ static table camera = {
 
 static table spot = { NUMBER("innerConeAngle"), NUMBER("outerConeAngle"), END };
 static table light = {
-    { .name = "type", .kind = NOOK_GLTF_STRING, .required = true },
+    NEEDED_STRING("type"),
     NUMBERS("color", 3),
     NUMBER("intensity"),
     NUMBER("range"),
@@ -214,7 +183,7 @@ static table extensions = { OBJECT("KHR_lights_punctual", lights_punctual), END 
 static table skin = {
     REFERENCE("inverseBindMatrices", "accessors"),
     REFERENCE("skeleton", "nodes"),
-    { .name = "joints", .kind = NOOK_GLTF_REFERENCES, .required = true, .of = "nodes" },
+    NEEDED_REFERENCES("joints", "nodes"),
     STRING("name"),
     END,
 };
@@ -230,8 +199,8 @@ static table animation = { LIST("channels", channel), LIST("samplers", animation
 
 const nook_gltf_member nook_gltf_schema[] = {
     NEEDED_OBJECT("asset", asset),
-    { .name = "extensionsUsed", .kind = NOOK_GLTF_STRINGS },
-    { .name = "extensionsRequired", .kind = NOOK_GLTF_STRINGS },
+    STRINGS("extensionsUsed"),
+    STRINGS("extensionsRequired"),
     OBJECT("extensions", extensions),
     LIST("accessors", accessor),
     LIST("animations", animation),

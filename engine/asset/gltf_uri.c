@@ -195,7 +195,7 @@ nook_result nook_gltf_read_uri(const nook_gltf *gltf, uint32_t uri, nook_gltf_by
 {
     char *text = NULL;
     nook_result result = decode_uri(gltf, uri, &text, out_reason);
-    if (result != NOOK_OK)
+    if (!text)
         return result;
     if (is_data(text))
         return read_data(text, out_bytes, out_reason);

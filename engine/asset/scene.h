@@ -66,7 +66,7 @@ typedef struct nook_node {
     uint32_t parent; /**< NOOK_NONE for a root. Parents stand before their children. */
     uint32_t mesh;   /**< NOOK_NONE for none. */
     uint32_t camera, light;
-    uint32_t skin;                /**< NOOK_NONE; a skinned mesh is drawn unposed for now. */
+    uint32_t skin; /**< NOOK_NONE; a skinned mesh is drawn unposed for now. */
     /** Composed in double. A skinned mesh's node has the identity: glTF places such a mesh by its joints alone. */
     nook_matrix world_from_local;
     /**

@@ -77,10 +77,9 @@ static void test_bytes_after_a_glb_are_a_warning(void **state)
 {
     (void)state;
     nook_file file = valid_glb();
-    uint8_t *longer = malloc(file.size + 5);
+    uint8_t *longer = calloc(file.size + 5, 1);
     assert_non_null(longer);
     memcpy(longer, file.bytes, file.size);
-    memcpy(longer + file.size, "extra", 5);
     nook_scene *scene = test_scene_must_load(test_bytes_write("longer.glb", longer, file.size + 5));
     assert_non_null(strstr(scene->warnings[0], "5 bytes after the end of the GLB are ignored"));
     nook_scene_destroy(scene);
@@ -152,7 +151,7 @@ static void test_nesting_beyond_a_limit_is_refused(void **state)
     size_t at = (size_t)sprintf(text, "{ " ASSET ", 'extras': ");
     memset(text + at, '[', DEEP);
     memset(text + at + DEEP, ']', DEEP);
-    strcpy(text + at + (size_t)2 * DEEP, " }");
+    snprintf(text + at + (size_t)2 * DEEP, 3, " }");
     refuse_text(text, NOOK_E_FORMAT, "nested too deeply");
 }
 
@@ -245,7 +244,7 @@ static void test_warnings_are_kept_up_to_a_hundred(void **state)
     size_t at = (size_t)sprintf(text, "{ " ASSET ", 'textures': [ { }");
     for (int i = 0; i < 300; i++)
         at += (size_t)sprintf(text + at, ", { }");
-    strcpy(text + at, " ] }");
+    snprintf(text + at, sizeof text - at, " ] }");
     nook_scene *scene = test_scene_must_load(test_gltf_write("noisy.gltf", text));
     assert_int_equal(scene->warning_count, 100);
     assert_non_null(strstr(scene->warnings[99], "further warnings are not shown"));

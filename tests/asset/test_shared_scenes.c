@@ -36,10 +36,11 @@ static int split(char *line, char *fields[FIELDS])
 {
     int count = 0;
     for (char *at = line; at && count < FIELDS; count++) {
+        char *tab = strchr(at, '\t');
         fields[count] = at;
-        at = strchr(at, '\t');
-        if (at)
-            *at++ = '\0';
+        if (tab)
+            *tab = '\0';
+        at = tab ? tab + 1 : NULL;
     }
     return count;
 }
@@ -173,7 +174,7 @@ static bool check_malformed(char *fields[FIELDS], int count)
         fail_msg("%s: %s, but the verdict is '%s' (%s)", fields[0], loaded ? "loaded" : "refused", verdict, log.text);
     if (log.errors != (loaded ? 0 : 1) || loaded != (scene != NULL))
         fail_msg("%s: %d error lines, result %d", fields[0], log.errors, result);
-    if (loaded && strstr(verdict, "warning") && scene->warning_count == 0)
+    if (scene && strstr(verdict, "warning") && scene->warning_count == 0)
         fail_msg("%s: loaded without the warning it deserves", fields[0]);
     if (scene)
         check_plain_data(fields[0], scene);
