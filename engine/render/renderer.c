@@ -27,23 +27,23 @@ bool nook_view_parse(const char *name, nook_view *out_view)
 
 static nook_result create_programs(nook_renderer *r)
 {
+    const char *surface = "shaders/render/surface.vert.glsl", *screen = "shaders/render/fullscreen.vert.glsl";
+    const char *shadow = "shaders/render/shadow.vert.glsl", *masked = "#define MASKED\n";
     const struct {
         const char *vertex, *fragment, *defines;
         nook_program *program;
     } list[] = {
-        { "shadow.vert.glsl", "shadow.frag.glsl", "", &r->shadow_program },
-        { "shadow.vert.glsl", "shadow.frag.glsl", "#define MASKED\n", &r->shadow_masked_program },
-        { "surface.vert.glsl", "gbuffer.frag.glsl", "", &r->gbuffer_program },
-        { "surface.vert.glsl", "gbuffer.frag.glsl", "#define MASKED\n", &r->gbuffer_masked_program },
-        { "fullscreen.vert.glsl", "lighting.frag.glsl", "", &r->lighting_program },
-        { "surface.vert.glsl", "blended.frag.glsl", "", &r->blended_program },
-        { "fullscreen.vert.glsl", "view.frag.glsl", "", &r->view_program },
+        { shadow, "shaders/render/shadow.frag.glsl", "", &r->shadow_program },
+        { shadow, "shaders/render/shadow.frag.glsl", masked, &r->shadow_masked_program },
+        { surface, "shaders/render/gbuffer.frag.glsl", "", &r->gbuffer_program },
+        { surface, "shaders/render/gbuffer.frag.glsl", masked, &r->gbuffer_masked_program },
+        { surface, "shaders/render/blended.frag.glsl", "", &r->blended_program },
+        { screen, "shaders/render/lighting.frag.glsl", "", &r->lighting_program },
+        { screen, "shaders/render/view.frag.glsl", "", &r->view_program },
     };
     for (size_t i = 0; i < NOOK_COUNT(list); i++) {
-        char vertex[64] = "shaders/render/", fragment[64] = "shaders/render/";
-        strcat(vertex, list[i].vertex);
-        strcat(fragment, list[i].fragment);
-        nook_result result = nook_program_raster(r->gpu, vertex, fragment, list[i].defines, list[i].program);
+        nook_result result =
+            nook_program_raster(r->gpu, list[i].vertex, list[i].fragment, list[i].defines, list[i].program);
         if (result != NOOK_OK)
             return result;
     }

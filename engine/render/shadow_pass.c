@@ -64,10 +64,16 @@ static nook_matrix fit(const sun_box *box, double *texel)
     return nook_matrix_multiply(&scale, &move);
 }
 
+static bool same_direction(const double a[3], const double b[3])
+{
+    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+}
+
+/** Draws are compared as bytes: a difference that is none only costs a pass. */
 static bool is_current(const shadow_contents *shadow, const nook_frame *frame)
 {
     return shadow->scene == frame->scene && shadow->scene_created_ms == frame->scene->created_ms &&
-           memcmp(shadow->sun_direction, frame->lights->sun.direction, sizeof shadow->sun_direction) == 0 &&
+           same_direction(shadow->sun_direction, frame->lights->sun.direction) &&
            shadow->draw_count == frame->draw_count &&
            (frame->draw_count == 0 ||
             memcmp(shadow->draws.items, frame->draws, frame->draw_count * sizeof *frame->draws) == 0);
