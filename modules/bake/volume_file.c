@@ -24,7 +24,7 @@ enum {
     HEADER_SIZE = 96,
 };
 static const uint8_t magic[4] = { 'N', 'K', 'V', 0x1A };
-static const int compression_level = 9; /* higher levels gain little on bits */
+static const int compression_level = 9; /* 4 ms for 3.7 million voxels; 19 takes 60 for a sixth less */
 
 /* ---- Little-endian numbers -------------------------------------------------------------------------------------- */
 

@@ -6,7 +6,9 @@
  *
  * Where the grid lies   Its longest side is exactly `resolution` voxels of the box, the other sides are rounded up; the
  *                       box stands in the middle, and one empty voxel surrounds it. So a flat mesh lies in the middle of
- *                       its one layer, and the faces of a box are the outer faces of its voxels.
+ *                       its one layer, and the faces at the ends of the longest side are the outer faces of its voxels.
+ *                       A surface on the boundary of two layers, or up to 1/1000 voxel below it, takes the upper one: walls at
+ *                       round numbers do not flicker between two layers.
  * What is exact         Corners are snapped to 1/65536 voxel; coverage is then decided in integers, edges included, so
  *                       triangles that share an edge leave no gap. A line through voxel centres never crosses the surface
  *                       unmarked: a closed mesh has no 6-connected path from inside to outside.
