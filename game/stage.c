@@ -1,6 +1,7 @@
 #include "game/stage.h"
 #include "engine/core/log.h"
 #include "game/techniques.h"
+#include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -43,6 +44,7 @@ static nook_result open_devices(nook_stage *stage, const nook_stage_desc *desc)
     nook_result result = nook_context_create(&context, &stage->context);
     if (result != NOOK_OK)
         return result;
+    stage->shows = desc->want_window && nook_context_backend(stage->context) == NOOK_BACKEND_WINDOW;
     const nook_gpu_desc gpu = { nook_context_get_proc(stage->context), desc->root };
     result = nook_gpu_create(&gpu, &stage->gpu);
     if (result != NOOK_OK)
@@ -53,11 +55,22 @@ static nook_result open_devices(nook_stage *stage, const nook_stage_desc *desc)
     return NOOK_OK;
 }
 
+/* Remembers that the user wants out; everything else waits. */
+static void answer_events(nook_stage *stage, nook_input *out_input)
+{
+    nook_context_poll(stage->context, out_input);
+    if (out_input->close_requested || out_input->pressed[NOOK_KEY_ESCAPE])
+        stage->stop_asked = true;
+}
+
 static void pass_progress_on(void *user, double fraction)
 {
-    const nook_stage *stage = user;
+    nook_stage *stage = user;
+    nook_input input;
     if (stage->progress)
         nook_progress_update(stage->progress, fraction);
+    if (stage->shows)
+        answer_events(stage, &input);
 }
 
 static nook_result open_ao(nook_stage *stage)
@@ -163,4 +176,20 @@ void nook_stage_finish(nook_stage *stage, bool occluded, nook_view view)
         visibility = (nook_texture){ texture.native, GL_TEXTURE_2D, texture.width, texture.height, 1, GL_R32F };
     }
     nook_frame_finish(stage->renderer, &stage->frame, visibility, view);
+}
+
+void nook_stage_show(nook_stage *stage, const char *doing)
+{
+    if (!stage->shows)
+        return;
+    char title[256];
+    nook_input input;
+    snprintf(title, sizeof title, "Nook: comparing (%s)", doing);
+    nook_context_set_title(stage->context, title);
+    nook_context_show(stage->context);
+    answer_events(stage, &input);
+    if (input.width == 0 || input.height == 0)
+        return;
+    nook_renderer_present(stage->renderer, input.width, input.height);
+    nook_context_present(stage->context);
 }

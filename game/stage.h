@@ -13,7 +13,7 @@ typedef struct nook_stage_desc {
     const char *root; /**< The folder that holds shaders/. */
     const char *scene_path;
     nook_backend backend;
-    bool want_window;       /**< With NOOK_BACKEND_AUTO: a window where there is a display. */
+    bool want_window;       /**< Where there is a display. */
     uint32_t width, height; /**< Of the pictures, pixels. */
 } nook_stage_desc;
 
@@ -29,6 +29,8 @@ typedef struct nook_stage {
     nook_renderer *renderer;
     nook_lights lights;
     nook_frame frame;        /**< The last one begun. */
+    bool shows;              /**< There is a window, and it is wanted. */
+    bool stop_asked;         /**< Esc or the close button while nook_stage_show looked. */
     nook_progress *progress; /**< Yours to set: told how far a long record is. NULL: nobody. */
 } nook_stage;
 
@@ -51,5 +53,11 @@ nook_result nook_stage_set_size(nook_stage *stage, uint32_t width, uint32_t heig
 nook_result nook_stage_begin(nook_stage *stage, const nook_camera *camera);
 /** Records the chosen technique on the last G-buffer. */
 nook_result nook_stage_occlude(nook_stage *stage);
+/**
+ * Shows the last finished picture in the window and answers its events: for long jobs, between their steps. Nothing when
+ * there is no window.
+ * @param doing  for the title
+ */
+void nook_stage_show(nook_stage *stage, const char *doing);
 /** Lights the picture. @param occluded  false: as if everything were open */
 void nook_stage_finish(nook_stage *stage, bool occluded, nook_view view);

@@ -5,6 +5,7 @@
 #include "game/compare/options.h"
 #include "game/compare/report.h"
 #include "game/compare/run.h"
+#include "game/exposure.h"
 #include "game/view/viewer.h"
 #include "game/volumes.h"
 #include <stdlib.h>
@@ -91,6 +92,8 @@ static nook_result compare(nook_stage *stage, const nook_compare_options *option
     const nook_game_world_desc world = { (uint32_t)options->resolution, r_max, options->cache };
     result = nook_stage_fill(stage, &world);
     if (result == NOOK_OK)
+        result = nook_stage_expose(stage, out_camera);
+    if (result == NOOK_OK)
         result = nook_compare_run(stage, out_camera, &choice, (uint32_t)options->frames, &comparison);
     if (result != NOOK_OK)
         return result;
@@ -117,7 +120,7 @@ int nook_command_compare(const nook_app *app, int argc, char **argv)
     nook_result result = nook_stage_open(&desc, &stage);
     if (result == NOOK_OK)
         result = compare(&stage, &options, &camera);
-    if (result == NOOK_OK && !options.no_window && nook_context_backend(stage.context) == NOOK_BACKEND_WINDOW)
+    if (result == NOOK_OK && stage.shows && !stage.stop_asked)
         result = nook_view_run(&stage, &camera, nook_path_name(options.scene));
     nook_stage_close(&stage);
     return result == NOOK_OK ? NOOK_EXIT_OK : NOOK_EXIT_FAILED;

@@ -1,6 +1,6 @@
 #include "game/compare/camera.h"
 #include "engine/core/log.h"
-#include "game/compare/interior.h"
+#include "game/compare/auto_camera.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -101,7 +101,7 @@ nook_result nook_camera_choose(const nook_scene *scene, const char *text, double
         return NOOK_OK;
     }
     if (!text) {
-        nook_camera outside = nook_camera_frame(scene->bounds_min, scene->bounds_max, aspect);
+        nook_camera outside = nook_camera_outside(scene, aspect);
         bool inside = nook_camera_inside(scene, &outside, out_camera);
         if (!inside)
             *out_camera = outside;

@@ -5,7 +5,7 @@
 /**
  * The camera that a person asked for.
  * @param text       a camera's name, or "px,py,pz,tx,ty,tz,fov" (eye, target, vertical degrees); NULL: the scene's first,
- *                   else from inside a room (game/compare/interior.h), else a three-quarter view from outside
+ *                   else from inside a room, else from outside (game/compare/auto_camera.h)
  * @param aspect     width / height
  * @param out_label  what to call it in reports
  * @return NOOK_E_NOT_FOUND no camera of that name (the line lists them); NOOK_E_RANGE numbers that are no view

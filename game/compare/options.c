@@ -28,7 +28,7 @@ static bool read_backend(void *target, const char *text)
 bool nook_compare_options_read(const nook_app *app, int argc, char **argv, nook_compare_options *out,
                                int *out_exit_code)
 {
-    *out = (nook_compare_options){ .size = { 960, 540 }, .frames = 5, .out = "out", .backend = NOOK_BACKEND_AUTO };
+    *out = (nook_compare_options){ .size = { 960, 540 }, .out = "out", .backend = NOOK_BACKEND_AUTO };
     out->scene = nook_path_join(out->default_scene, sizeof out->default_scene, app->root, "content/hall/hall.glb");
     out->cache = nook_path_join(out->default_cache, sizeof out->default_cache, app->root, "cache");
     const nook_option options[] = {
@@ -86,7 +86,7 @@ bool nook_compare_options_read(const nook_app *app, int argc, char **argv, nook_
           .placeholder = "N",
           .lowest = 1,
           .highest = 10000,
-          .help = "timed frames of each technique; default 5" },
+          .help = "timed frames of each technique; default: 5, fewer when they take seconds" },
         { .name = "out",
           .kind = NOOK_OPTION_TEXT,
           .target = &out->out,

@@ -15,7 +15,7 @@ typedef struct nook_compare_options {
     const char *ao_scale;    /**< For ao.scale, one of its choices; NULL: as in modules/ao/params.def. */
     nook_option_list params; /**< "technique.name=value" */
     int32_t reference_rays;  /**< 0: the reference's own default. */
-    int32_t frames;          /**< Timed ones of each technique. */
+    int32_t frames;          /**< Timed ones of each technique; 0: as many as a few seconds allow. */
     const char *out;
     nook_backend backend;
     int32_t resolution; /**< Voxels along a body's longest side; 0: the baker's own default. */

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { WARM_UP_FRAMES = 2 };
+enum { FRAMES_DEFAULT = 5, TIMING_BUDGET_MS = 4000 };
 
 static const nook_ao_technique *find_technique(const nook_ao *ao, const char *name, size_t length)
 {
@@ -89,32 +89,41 @@ static nook_result time_frame(nook_stage *stage, nook_gpu_timer timer, double *o
     return result;
 }
 
-static nook_result time_frames(nook_stage *stage, uint32_t warm_up, nook_compare_row *row)
+/* Until `row->frames` are timed, or after `budget_ms` if that is sooner; row->frames becomes how many there were. */
+static nook_result time_each(nook_stage *stage, nook_gpu_timer timer, double budget_ms, nook_compare_row *row,
+                             double *times, double *gpu_times)
+{
+    double spent = 0.0;
+    uint32_t done = 0;
+    while (done < row->frames && spent < budget_ms) {
+        nook_result result = time_frame(stage, timer, &times[done], &gpu_times[done]);
+        if (result != NOOK_OK)
+            return result;
+        spent += times[done++];
+    }
+    row->frames = done;
+    row->ms_median = median(times, done); /* leaves them sorted */
+    row->ms_min = times[0];
+    row->ms_max = times[done - 1];
+    row->gpu_ms_median = timer.begin ? median(gpu_times, done) : NAN;
+    return NOOK_OK;
+}
+
+static nook_result time_frames(nook_stage *stage, double budget_ms, nook_compare_row *row)
 {
     double *times = calloc(row->frames, 2 * sizeof *times);
     if (!times)
         return nook_fail(NOOK_E_MEMORY, "no memory for %u times", row->frames);
-    double *gpu_times = times + row->frames;
     nook_gpu_timer timer = { 0 };
     if (nook_gpu_timer_trusted(stage->gpu))
         nook_gpu_timer_create(stage->gpu, &timer);
-    nook_result result = NOOK_OK;
-    for (uint32_t i = 0; i < warm_up && result == NOOK_OK; i++)
-        result = nook_stage_occlude(stage);
-    for (uint32_t i = 0; i < row->frames && result == NOOK_OK; i++)
-        result = time_frame(stage, timer, &times[i], &gpu_times[i]);
-    if (result == NOOK_OK) {
-        row->ms_median = median(times, row->frames); /* leaves them sorted */
-        row->ms_min = times[0];
-        row->ms_max = times[row->frames - 1];
-        row->gpu_ms_median = timer.begin ? median(gpu_times, row->frames) : NAN;
-    }
+    nook_result result = time_each(stage, timer, budget_ms, row, times, times + row->frames);
     nook_gpu_timer_destroy(stage->gpu, &timer);
     free(times);
     return result;
 }
 
-/* Counting slows the shaders down, so it has a frame of its own. */
+/* Counting slows the shaders down, so it has a frame of its own; that one warms up what the others share with it. */
 static nook_result count_fetches(nook_stage *stage, nook_compare_row *row)
 {
     nook_result result = nook_ao_set_param(stage->ao, "ao.count", 1.0);
@@ -179,32 +188,34 @@ static nook_result check_geometry(const nook_comparison *comparison)
     return nook_fail(NOOK_E_NOT_FOUND, "the camera sees nothing of the scene; choose another with --camera");
 }
 
-static nook_result run_technique(nook_stage *stage, nook_compare_row *row)
+static nook_result run_technique(nook_stage *stage, double budget_ms, nook_compare_row *row)
 {
-    nook_result result = nook_ao_set_technique(stage->ao, row->technique->name);
-    if (result == NOOK_OK)
-        result = time_frames(stage, row->technique->exact ? 0 : WARM_UP_FRAMES, row);
-    if (result == NOOK_OK)
-        result = read_visibility(stage, &row->visibility);
-    if (result == NOOK_OK)
-        result = read_lit(stage, &row->lit);
     row->fetches_per_pixel = NAN;
+    nook_result result = nook_ao_set_technique(stage->ao, row->technique->name);
     if (result == NOOK_OK && !row->technique->exact)
         result = count_fetches(stage, row);
-    return result;
+    if (result == NOOK_OK && !row->technique->exact)
+        result = nook_stage_occlude(stage); /* warms up */
+    if (result == NOOK_OK)
+        result = time_frames(stage, budget_ms, row);
+    if (result == NOOK_OK)
+        result = read_visibility(stage, &row->visibility);
+    return result == NOOK_OK ? read_lit(stage, &row->lit) : result;
 }
 
 static nook_result run_row(nook_stage *stage, nook_comparison *comparison, uint32_t index, uint32_t frames)
 {
     nook_compare_row *row = &comparison->rows[index];
     char what[64];
-    row->frames = row->technique->exact ? 1 : frames;
-    snprintf(what, sizeof what, "tracing the %s", row->technique->name);
+    double budget_ms = frames == 0 ? TIMING_BUDGET_MS : INFINITY;
+    row->frames = row->technique->exact ? 1 : frames == 0 ? FRAMES_DEFAULT : frames;
+    snprintf(what, sizeof what, "%s the %s", row->technique->exact ? "tracing" : "timing", row->technique->name);
     nook_progress progress = nook_progress_begin(what);
     stage->progress = &progress;
-    nook_result result = run_technique(stage, row);
+    nook_result result = run_technique(stage, budget_ms, row);
     stage->progress = NULL;
     nook_progress_end(&progress);
+    nook_stage_show(stage, row->technique->name);
     if (result != NOOK_OK)
         return result;
     return nook_errors_measure(row->visibility.values, comparison->rows[0].visibility.values, comparison->geometry,
@@ -220,6 +231,10 @@ nook_result nook_compare_run(nook_stage *stage, const nook_camera *camera, const
         result = read_geometry(stage, &out_comparison->geometry);
     if (result == NOOK_OK)
         result = check_geometry(out_comparison);
+    if (result == NOOK_OK) {
+        nook_stage_finish(stage, false, NOOK_VIEW_LIT);
+        nook_stage_show(stage, "first the truth");
+    }
     for (uint32_t i = 0; i < choice->count && result == NOOK_OK; i++) {
         out_comparison->rows[i].technique = choice->techniques[i];
         out_comparison->row_count = i + 1;

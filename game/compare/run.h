@@ -44,7 +44,8 @@ nook_result nook_compare_choose(const nook_ao *ao, const char *list, nook_compar
 
 /**
  * Draws the G-buffer once, then records, times, counts and reads back every chosen technique on it.
- * @param frames  timed ones of each technique; the reference is timed once
+ * In a window it shows each picture as it is made.
+ * @param frames  timed ones of each technique, the reference is timed once; 0: five, or fewer when they take seconds
  * @return why not; *out_comparison is zero then
  */
 nook_result nook_compare_run(nook_stage *stage, const nook_camera *camera, const nook_compare_choice *choice,

@@ -60,6 +60,7 @@ test_compare_gives_the_same_picture_twice() {
 }
 
 test_a_second_run_reads_volumes_from_the_cache() {
+    rm -rf "$tmp/cache of its own"
     compare_crate --cache "$tmp/cache of its own" --out "$tmp/cached" --techniques ssao --json | grep -q '"cached": false'
     compare_crate --cache "$tmp/cache of its own" --out "$tmp/cached" --techniques ssao --json >"$tmp/printed"
     ! grep -q '"cached": false' "$tmp/printed"

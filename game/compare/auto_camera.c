@@ -1,8 +1,9 @@
-#include "game/compare/interior.h"
+#include "game/compare/auto_camera.h"
 #include "game/compare/camera.h"
 #include <math.h>
 
-enum { DIRECTIONS = 16, PROBES = 9 };
+enum { DIRECTIONS = 16, PROBES = 9, GRID = 7 };
+static const double backs_tolerated = 0.1;
 static const double pi = 3.14159265358979323846;
 
 static double dot(const double a[3], const double b[3])
@@ -86,6 +87,66 @@ nook_ray_hit nook_scene_cast(const nook_scene *scene, const double origin[3], co
             meet_primitive(scene, &scene->primitives[mesh->first_primitive + p], from, along, &hit);
     }
     return hit;
+}
+
+/* A ray through the picture. @param u, v  in [-1, 1], v up */
+static nook_ray_hit cast_pixel(const nook_scene *scene, const nook_camera *view, double aspect, double u, double v)
+{
+    nook_matrix world_from_view;
+    double tan_y = tan(0.5 * view->fov_y_radians), eye[3], direction[3];
+    const double origin[3] = { 0.0, 0.0, 0.0 }, along[3] = { u * tan_y * aspect, v * tan_y, -1.0 };
+    nook_matrix_inverse_affine(&view->view_from_world, &world_from_view);
+    nook_matrix_apply_point(&world_from_view, origin, eye);
+    nook_matrix_apply_vector(&world_from_view, along, direction);
+    return nook_scene_cast(scene, eye, direction);
+}
+
+double nook_view_back_fraction(const nook_scene *scene, const nook_camera *view, double aspect)
+{
+    int hits = 0, backs = 0;
+    for (int i = 0; i < GRID * GRID; i++) {
+        double u = 2.0 * (i % GRID + 0.5) / GRID - 1.0, v = 2.0 * (i / GRID + 0.5) / GRID - 1.0;
+        nook_ray_hit hit = cast_pixel(scene, view, aspect, u, v);
+        hits += isfinite(hit.distance);
+        backs += isfinite(hit.distance) && !hit.front;
+    }
+    return hits > 0 ? backs / (double)hits : 0.0;
+}
+
+/* Level, from one of the four sides, just far enough to hold the box. */
+static nook_camera side_view(const nook_scene *scene, int side, const nook_camera *like, double aspect)
+{
+    const double away[4][3] = { { 0, 0, 1 }, { 1, 0, 0 }, { -1, 0, 0 }, { 0, 0, -1 } };
+    double half[3], centre[3], eye[3], tan_y = tan(0.5 * like->fov_y_radians);
+    for (int i = 0; i < 3; i++) {
+        half[i] = 0.5 * (scene->bounds_max[i] - scene->bounds_min[i]);
+        centre[i] = scene->bounds_min[i] + half[i];
+    }
+    int depth_axis = away[side][0] != 0.0 ? 0 : 2;
+    double distance = half[depth_axis] + 1.04 * fmax(half[1], half[2 - depth_axis] / aspect) / tan_y;
+    nook_camera camera = *like;
+    for (int i = 0; i < 3; i++)
+        eye[i] = centre[i] + distance * away[side][i];
+    nook_camera_look(eye, centre, like->fov_y_radians, like->z_near, &camera);
+    return camera;
+}
+
+nook_camera nook_camera_outside(const nook_scene *scene, double aspect)
+{
+    nook_camera best = nook_camera_frame(scene->bounds_min, scene->bounds_max, aspect);
+    double least = nook_view_back_fraction(scene, &best, aspect);
+    if (least < backs_tolerated)
+        return best;
+    const nook_camera three_quarters = best;
+    for (int side = 0; side < 4; side++) {
+        nook_camera camera = side_view(scene, side, &three_quarters, aspect);
+        double fraction = nook_view_back_fraction(scene, &camera, aspect);
+        if (fraction < 0.5 * least) {
+            best = camera;
+            least = fraction;
+        }
+    }
+    return best;
 }
 
 /* How much of what is around `centre` something nearer hides from a view. */

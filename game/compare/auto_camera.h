@@ -11,6 +11,12 @@ typedef struct nook_ray_hit {
 /** Asks every triangle: for the few rays that choosing a view takes. @param origin, direction  world, metres */
 nook_ray_hit nook_scene_cast(const nook_scene *scene, const double origin[3], const double direction[3]);
 
+/** Of the picture's surfaces, the part that shows its back: what a room shows to those outside. */
+double nook_view_back_fraction(const nook_scene *scene, const nook_camera *view, double aspect);
+
+/** The whole scene from outside: from three quarters, or from where least of it turns its back. */
+nook_camera nook_camera_outside(const nook_scene *scene, double aspect);
+
 /**
  * A view from inside, for scenes that are rooms: walls around their middle, and hidden from `outside`.
  * @param outside  the view from outside that would be taken otherwise

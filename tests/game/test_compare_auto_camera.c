@@ -1,4 +1,4 @@
-#include "game/compare/interior.h"
+#include "game/compare/auto_camera.h"
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -101,6 +101,34 @@ static void test_a_thing_is_seen_from_outside(void **state)
     assert_memory_equal(&inside, &outside, sizeof inside);
 }
 
+static void test_a_room_with_one_side_open_is_seen_through_it(void **state)
+{
+    (void)state;
+    box_scene box;
+    make_box(&box, 2.0, 2.0, 2.0, true);
+    box.primitive.index_count -= 6; /* the two triangles at +z are the last */
+    nook_camera outside = nook_camera_outside(&box.scene, 1.5);
+    nook_matrix world_from_view;
+    const double origin[3] = { 0, 0, 0 };
+    double eye[3];
+    nook_matrix_inverse_affine(&outside.view_from_world, &world_from_view);
+    nook_matrix_apply_point(&world_from_view, origin, eye);
+    assert_true(fabs(eye[0]) < 1e-9 && fabs(eye[1]) < 1e-9 && eye[2] > 2.0);
+    assert_true(nook_view_back_fraction(&box.scene, &outside, 1.5) == 0.0);
+    nook_camera three_quarters = nook_camera_frame(box.scene.bounds_min, box.scene.bounds_max, 1.5);
+    assert_true(nook_view_back_fraction(&box.scene, &three_quarters, 1.5) > 0.1);
+}
+
+static void test_a_solid_thing_keeps_its_three_quarter_view(void **state)
+{
+    (void)state;
+    box_scene box;
+    make_box(&box, 2.0, 1.0, 2.0, false);
+    nook_camera outside = nook_camera_outside(&box.scene, 1.5);
+    nook_camera three_quarters = nook_camera_frame(box.scene.bounds_min, box.scene.bounds_max, 1.5);
+    assert_memory_equal(&outside.view_from_world, &three_quarters.view_from_world, sizeof outside.view_from_world);
+}
+
 static void test_a_scene_without_triangles_is_no_room(void **state)
 {
     (void)state;
@@ -115,6 +143,8 @@ int main(void)
         cmocka_unit_test(test_rays_meet_the_nearest_side_and_know_it),
         cmocka_unit_test(test_a_room_is_seen_from_inside),
         cmocka_unit_test(test_a_thing_is_seen_from_outside),
+        cmocka_unit_test(test_a_room_with_one_side_open_is_seen_through_it),
+        cmocka_unit_test(test_a_solid_thing_keeps_its_three_quarter_view),
         cmocka_unit_test(test_a_scene_without_triangles_is_no_room),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
