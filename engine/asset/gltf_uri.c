@@ -1,6 +1,7 @@
 /* URIs: which ones may be opened, and their bytes. A scene from anywhere must not read files outside its folder. */
 #include "engine/asset/gltf_internal.h"
 #include "engine/asset/scene_internal.h"
+#include <assert.h>
 #include <ctype.h>
 #include <errno.h>
 #include <stdarg.h>
@@ -197,6 +198,7 @@ nook_result nook_gltf_read_uri(const nook_gltf *gltf, uint32_t uri, nook_gltf_by
     nook_result result = decode_uri(gltf, uri, &text, out_reason);
     if (!text)
         return result;
+    assert(text);
     if (is_data(text))
         return read_data(text, out_bytes, out_reason);
     result = read_beside(gltf, text, out_bytes, out_reason);
