@@ -171,21 +171,16 @@ static nook_result read_geometry(nook_stage *stage, uint8_t **out_geometry)
     }
     nook_texture_read(stage->gpu, nook_renderer_gbuffer(stage->renderer).depth, GL_DEPTH_COMPONENT, GL_FLOAT, depth,
                       pixels * sizeof *depth);
-    for (size_t i = 0; i < pixels; i++)
-        geometry[i] = depth[i] > 0.0f; /* reversed: 0 is infinitely far */
-    free(depth);
-    *out_geometry = geometry;
-    return NOOK_OK;
-}
-
-static nook_result check_geometry(const nook_comparison *comparison)
-{
-    size_t pixels = (size_t)comparison->width * comparison->height;
+    size_t seen = 0;
     for (size_t i = 0; i < pixels; i++) {
-        if (comparison->geometry[i])
-            return NOOK_OK;
+        geometry[i] = depth[i] > 0.0f; /* reversed: 0 is infinitely far */
+        seen += geometry[i];
     }
-    return nook_fail(NOOK_E_NOT_FOUND, "the camera sees nothing of the scene; choose another with --camera");
+    free(depth);
+    *out_geometry = geometry; /* whose owner frees it, whatever comes of this */
+    if (seen == 0)
+        return nook_fail(NOOK_E_NOT_FOUND, "the camera sees nothing of the scene; choose another with --camera");
+    return NOOK_OK;
 }
 
 static nook_result run_technique(nook_stage *stage, double budget_ms, nook_compare_row *row)
@@ -229,8 +224,6 @@ nook_result nook_compare_run(nook_stage *stage, const nook_camera *camera, const
     nook_result result = nook_stage_begin(stage, camera);
     if (result == NOOK_OK)
         result = read_geometry(stage, &out_comparison->geometry);
-    if (result == NOOK_OK)
-        result = check_geometry(out_comparison);
     if (result == NOOK_OK) {
         nook_stage_finish(stage, false, NOOK_VIEW_LIT);
         nook_stage_show(stage, "first the truth");

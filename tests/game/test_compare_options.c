@@ -8,26 +8,28 @@
 
 static const nook_app app = { .root = "/somewhere" };
 
-/* The last argument is NULL. */
-static bool read_options(nook_compare_options *options, ...)
+/* What `compare` makes of these words. */
+static bool read_words(nook_compare_options *options, const char *const *words, int count)
 {
     char *argv[16] = { (char *)"compare" };
-    int argc = 1, exit_code = -1;
-    va_list list;
-    va_start(list, options);
-    while (argc < 15 && (argv[argc] = va_arg(list, char *)))
-        argc++;
-    va_end(list);
-    bool understood = nook_compare_options_read(&app, argc, argv, options, &exit_code);
+    int exit_code = -1;
+    assert_true(count < 15);
+    for (int i = 0; i < count; i++)
+        argv[i + 1] = (char *)words[i];
+    bool understood = nook_compare_options_read(&app, count + 1, argv, options, &exit_code);
     assert_int_equal(exit_code, understood ? -1 : NOOK_EXIT_USAGE);
     return understood;
 }
+
+#define READ(options, ...)                                    \
+    read_words(options, (const char *const[]){ __VA_ARGS__ }, \
+               (int)(sizeof((const char *const[]){ __VA_ARGS__ }) / sizeof(char *)))
 
 static void test_nothing_given_means_the_demo_level_and_every_technique(void **state)
 {
     (void)state;
     nook_compare_options options;
-    assert_true(read_options(&options, NULL));
+    assert_true(read_words(&options, NULL, 0));
     assert_string_equal(options.scene, "/somewhere/content/hall/hall.glb");
     assert_string_equal(options.cache, "/somewhere/cache");
     assert_string_equal(options.out, "out");
@@ -45,8 +47,8 @@ static void test_every_option_reaches_its_field(void **state)
 {
     (void)state;
     nook_compare_options options;
-    assert_true(read_options(&options, "a.glb", "--size=600x500", "--r-max", "0.25", "--techniques", "a,b", "--param",
-                             "a.b=1", "--param", "c.d=2", "--no-window", "--backend", "osmesa", NULL));
+    assert_true(READ(&options, "a.glb", "--size=600x500", "--r-max", "0.25", "--techniques", "a,b", "--param", "a.b=1",
+                     "--param", "c.d=2", "--no-window", "--backend", "osmesa"));
     assert_string_equal(options.scene, "a.glb");
     assert_int_equal(options.size.width, 600);
     assert_int_equal(options.size.height, 500);
@@ -56,8 +58,8 @@ static void test_every_option_reaches_its_field(void **state)
     assert_string_equal(options.params.items[1], "c.d=2");
     assert_true(options.no_window);
     assert_int_equal(options.backend, NOOK_BACKEND_OSMESA);
-    assert_true(read_options(&options, "--camera", "-1,2,3,0,0,0,60", "--falloff", "linear", "--reference-rays", "64",
-                             "--frames", "3", "--out", "there", "--cache", "here", "--json", NULL));
+    assert_true(READ(&options, "--camera", "-1,2,3,0,0,0,60", "--falloff", "linear", "--reference-rays", "64",
+                     "--frames", "3", "--out", "there", "--cache", "here", "--json"));
     assert_string_equal(options.camera, "-1,2,3,0,0,0,60");
     assert_string_equal(options.falloff, "linear");
     assert_int_equal(options.reference_rays, 64);
@@ -75,7 +77,7 @@ static void test_scale_is_understood_in_all_its_spellings(void **state)
                                                 { "quarter", "quarter" }, { "4", "quarter" }, { "1/4", "quarter" } };
     for (size_t i = 0; i < sizeof spellings / sizeof *spellings; i++) {
         nook_compare_options options;
-        assert_true(read_options(&options, "--ao-scale", spellings[i][0], NULL));
+        assert_true(READ(&options, "--ao-scale", spellings[i][0]));
         assert_string_equal(options.ao_scale, spellings[i][1]);
     }
 }
@@ -92,7 +94,7 @@ static void test_absurd_values_are_refused_before_anything_is_done(void **state)
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         nook_compare_options options;
-        if (read_options(&options, wrong[i][0], wrong[i][1], NULL))
+        if (READ(&options, wrong[i][0], wrong[i][1]))
             fail_msg("%s %s was taken", wrong[i][0], wrong[i][1]);
     }
 }
@@ -101,7 +103,7 @@ static void test_two_scenes_are_one_too_many(void **state)
 {
     (void)state;
     nook_compare_options options;
-    assert_false(read_options(&options, "a.glb", "b.glb", NULL));
+    assert_false(READ(&options, "a.glb", "b.glb"));
 }
 
 int main(void)
