@@ -94,7 +94,7 @@ nook_result nook_texture_create_mipped(nook_gpu *gpu, uint32_t format, uint32_t 
         return result;
     set_sampling(gpu, texture.id, GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, GL_REPEAT);
     float anisotropy = gpu->cache->max_anisotropy < WANTED_ANISOTROPY ? gpu->cache->max_anisotropy : WANTED_ANISOTROPY;
-    if (anisotropy > 1)
+    if (anisotropy > 1 && !gpu->software) /* the CPU would spend more than half of the G-buffer's time on it */
         gpu->gl->TextureParameterf(texture.id, GL_TEXTURE_MAX_ANISOTROPY, anisotropy);
     nook_texture_write(gpu, texture, GL_RGBA, GL_UNSIGNED_BYTE, rgba8, (size_t)width * height * 4);
     gpu->gl->GenerateTextureMipmap(texture.id);

@@ -3,8 +3,9 @@
 #include "engine/render/internal.h"
 #include <math.h>
 
-static const float sky_top[3] = { 0.36f, 0.46f, 0.62f };
-static const float sky_bottom[3] = { 0.22f, 0.20f, 0.18f };
+/* No light bounces here, so the ambient also stands for what walls and floor would give back: about a third of the sun. */
+static const float sky_top[3] = { 0.74f, 0.82f, 0.95f };
+static const float sky_bottom[3] = { 0.56f, 0.52f, 0.47f };
 
 nook_lights nook_lights_default(void)
 {

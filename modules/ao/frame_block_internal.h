@@ -19,6 +19,7 @@ typedef struct frame_block {
     float depth_to_distance[2];
     float depth_background;
     int32_t has_normal;
-    int32_t padding[2];        /**< A vec4 starts at a multiple of 16 bytes. */
+    int32_t filter_kind;
+    int32_t padding[1];        /**< A vec4 starts at a multiple of 16 bytes. */
     float view_from_world[12]; /**< Three columns of four. */
 } frame_block;

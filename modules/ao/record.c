@@ -65,10 +65,11 @@ static frame_block make_block(const nook_ao *ao, const nook_ao_frame *frame, uin
         .seed = frame->index,
         .occluder_count = (int32_t)occluder_count,
         .counting = shared->count,
-        .filter_radius = shared->filter ? shared->filter_radius : 0.0f, /* 0: only the nearest sample */
+        .filter_radius = shared->filter_radius,
         .filter_depth = shared->filter_depth,
         .filter_normal = shared->filter_normal,
         .has_normal = frame->normal.native != 0,
+        .filter_kind = shared->filter,
     };
     set_projection(frame->clip_from_view, &block);
     for (int column = 0; column < 3; column++) {

@@ -1,6 +1,7 @@
-// Joint bilateral filter and upscaling in one (Papaioannou et al. 2010, section 6; Kopf et al. 2007): 17 samples of the
-// trace in a Gaussian disc around each full-resolution pixel, narrowed along the depth gradient so that it stays on the
-// surface, weighted by distance to the pixel's plane and by normal.
+// Joint bilateral filter and upscaling in one (Papaioannou et al. 2010, section 6; Kopf et al. 2007): samples of the trace
+// around each full-resolution pixel, weighted by distance to the pixel's plane and by normal. ao.filter chooses which:
+// none, the nearest sample; disc, the paper's 17-sample Gaussian disc, narrowed along the depth gradient so that it stays on
+// the surface; tile, the 4x4 pixels that share one set of rays.
 //
 // Constant in gives constant out bit for bit: the result is the nearest sample plus a weighted mean of differences to it.
 #include "ao/frame.glsl"
@@ -16,6 +17,7 @@ layout(binding = 0, r32f) uniform writeonly image2D visibility_out;
 // A golden-angle disc: radius sqrt((i + 0.5) / 16); the 17th sample is the centre.
 const int RING = 16;
 const float GOLDEN_ANGLE = 2.39996323;
+const float SLANT_MIN = 0.5; // a disc of 4 pixels then still covers the 4x4 pixels that share one set of rays
 const float WEIGHT_MIN = 1e-3; // below this a sample is on another surface: it has no say at all
 
 struct Guide {
@@ -35,7 +37,7 @@ float guide_weight(Guide guide, ivec2 q, float depth)
 mat2 ellipse(vec3 normal, vec3 position)
 {
     vec3 to_eye = -normalize(position);
-    float slant = clamp(dot(normal, to_eye), 0.2, 1.0);
+    float slant = clamp(dot(normal, to_eye), SLANT_MIN, 1.0);
     vec2 gradient = normal.xy - to_eye.xy * dot(normal, to_eye);
     float size = length(gradient);
     vec2 along = size > 1e-4 ? gradient / size : vec2(1.0, 0.0);
@@ -63,29 +65,55 @@ ivec2 nearest_sample(vec2 centre, Guide guide)
     return best;
 }
 
-float filtered(vec2 centre, Guide guide, ivec2 p)
+struct Mean {
+    float reference, sum, weights;
+};
+
+void add_sample(inout Mean mean, Guide guide, ivec2 q, float window)
 {
-    ivec2 start = frame.scale == 1 ? p : nearest_sample(centre, guide);
-    float reference = texelFetch(visibility_trace, start, 0).r;
+    if (window <= 0.0 || any(lessThan(q, ivec2(0))) || any(greaterThanEqual(q, frame.size)))
+        return;
+    float depth = texelFetch(depth_trace, q, 0).r;
+    float weight = depth > 0.0 ? guide_weight(guide, q, depth) : 0.0;
+    if (weight < WEIGHT_MIN)
+        return;
+    mean.sum += window * weight * (texelFetch(visibility_trace, q, 0).r - mean.reference);
+    mean.weights += window * weight;
+}
+
+// The paper's: 17 samples, Gaussian.
+void add_disc(inout Mean mean, Guide guide, vec2 centre, ivec2 p)
+{
     mat2 shape = ellipse(guide.normal, guide.position) * frame.filter_radius;
-    float turn = noise(p & 3, 7u) * 6.2831853, sum = 0.0, weights = 0.0;
+    float turn = noise(p & 3, 7u) * 6.2831853;
     for (int i = 0; i <= RING; i++) {
         float radius = i == RING ? 0.0 : sqrt((float(i) + 0.5) / float(RING));
         float angle = float(i) * GOLDEN_ANGLE + turn;
         ivec2 q = ivec2(round(centre + shape * (radius * vec2(cos(angle), sin(angle)))));
-        if (any(lessThan(q, ivec2(0))) || any(greaterThanEqual(q, frame.size)))
-            continue;
-        float depth = texelFetch(depth_trace, q, 0).r;
-        if (depth <= 0.0)
-            continue;
-        float weight = guide_weight(guide, q, depth);
-        if (weight < WEIGHT_MIN)
-            continue;
-        weight *= exp(-radius * radius);
-        sum += weight * (texelFetch(visibility_trace, q, 0).r - reference);
-        weights += weight;
+        add_sample(mean, guide, q, exp(-radius * radius));
     }
-    return weights > 0.0 ? reference + sum / weights : reference;
+}
+
+// A box of exactly 4x4 trace pixels, its rim shared with the neighbours: all 16 blocks of directions.glsl with equal weight.
+void add_tile(inout Mean mean, Guide guide, vec2 centre)
+{
+    ivec2 base = ivec2(round(centre));
+    for (int i = 0; i < 25; i++) {
+        ivec2 q = base + ivec2(i % 5 - 2, i / 5 - 2);
+        vec2 covered = clamp(2.5 - abs(vec2(q) - centre), 0.0, 1.0);
+        add_sample(mean, guide, q, covered.x * covered.y);
+    }
+}
+
+float filtered(vec2 centre, Guide guide, ivec2 p)
+{
+    ivec2 start = frame.scale == 1 ? p : nearest_sample(centre, guide);
+    Mean mean = Mean(texelFetch(visibility_trace, start, 0).r, 0.0, 0.0);
+    if (frame.filter_kind == 1)
+        add_disc(mean, guide, centre, p);
+    else if (frame.filter_kind == 2)
+        add_tile(mean, guide, centre);
+    return mean.weights > 0.0 ? mean.reference + mean.sum / mean.weights : mean.reference;
 }
 
 void main()

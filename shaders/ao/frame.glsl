@@ -19,6 +19,7 @@ layout(std140, binding = 0) uniform Frame {
     vec2 depth_to_distance;      // distance = x / (device depth + y)
     float depth_background;      // device depth where nothing was drawn
     int has_normal;              // 0: rebuild normals from depth
+    int filter_kind;             // ao.filter: 0 none, 1 disc, 2 tile
     vec4 view_from_world[3];     // rotation only: columns
 } frame;
 

@@ -53,14 +53,17 @@ float below_horizon(vec3 p, vec3 n, vec3 along, float jitter, out float out_heig
     return sum;
 }
 
-// One ray above the horizon: the falloff where it first passes behind a surface within reach, else 0.
-float march_above(vec3 p, vec3 d, float jitter, inout uint fetches)
+// One ray above the horizon: the falloff where it first passes behind a surface within reach, else 0. A texel holds the
+// surface at its centre, not where the ray crosses it: what rises less than a texel above the receiver's plane is that plane.
+float march_above(vec3 p, vec3 n, vec3 d, float jitter, inout uint fetches)
 {
     for (int i = 0; i < params.ray_steps; i++) {
         float t = frame.r_max * (float(i) + jitter) / float(params.ray_steps);
         vec3 point = p + d * t;
         Sample s = look_at(point, fetches);
-        if (s.seen && s.position.z > point.z && distance(s.position, p) < frame.r_max)
+        vec3 v = s.position - p;
+        float texel = -s.position.z * pixel_footprint() * float(frame.scale);
+        if (s.seen && s.position.z > point.z && dot(v, n) > texel && length(v) < frame.r_max)
             return falloff(t);
     }
     return 0.0;
@@ -80,7 +83,7 @@ float occlusion(ivec2 pixel, vec3 p, vec3 n, inout uint fetches)
             float part = (float(m) + fract(lift + float(k) * 0.75487767)) / float(params.rays);
             float square = mix(height, 1.0, part); // cosine weighted: sin^2 of the elevation is uniform
             vec3 d = along * sqrt(1.0 - square) + n * sqrt(square);
-            sum += (1.0 - height) / float(params.rays) * march_above(p, d, first, fetches);
+            sum += (1.0 - height) / float(params.rays) * march_above(p, n, d, first, fetches);
         }
     }
     return sum / float(params.directions);
