@@ -97,7 +97,7 @@ nook_result nook_camera_choose(const nook_scene *scene, const char *text, double
     }
     if (found) {
         *out_camera = nook_camera_from_scene(found);
-        snprintf(out_label, label_capacity, "%s", found->name);
+        snprintf(out_label, label_capacity, "%s", *found->name ? found->name : "without a name");
         return NOOK_OK;
     }
     if (!text) {
