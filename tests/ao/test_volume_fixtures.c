@@ -219,6 +219,36 @@ static void test_volume_reports_unbiased_distances(void **state)
         fail_msg("A = %.4f, truth 0.3600", got);
 }
 
+static double counted_fetches(ao_fixture *fixture)
+{
+    nook_ao_statistics statistics;
+    ao_fixture_param(fixture, "ao.count", "1");
+    ao_fixture_measure(fixture, "volume", origin, up, 0.3);
+    nook_ao_get_statistics(fixture->ao, &statistics);
+    ao_fixture_param(fixture, "ao.count", "0");
+    return statistics.fetches_per_pixel;
+}
+
+static void test_volume_pays_only_for_occluders_within_reach(void **state)
+{
+    ao_fixture *fixture = prepare(state, "union", "1");
+    fixture_mesh mesh = { 0 };
+    fixture_box(&mesh, (double[]){ 0.5, -0.5, 0 }, (double[]){ 1.5, 0.5, 1 }, 63);
+    ao_fixture_add(fixture, &mesh, 32);
+    double alone = counted_fetches(fixture);
+    assert_true(alone > 1.0);
+    for (int i = 1; i < AO_FIXTURE_OCCLUDERS; i++) { /* the same box, 4 m and farther away all around */
+        nook_ao_occluder *occluder = &fixture->occluders[fixture->occluder_count++];
+        *occluder = fixture->occluders[0];
+        occluder->world_from_mesh[12] = 4.0 * (i % 8 - 4) + (i % 8 < 4 ? -2.0 : 4.0);
+        occluder->world_from_mesh[13] = 4.0 * (i / 8.0);
+    }
+    assert_true(counted_fetches(fixture) == alone);
+    for (uint32_t i = 1; i < fixture->occluder_count; i++) /* they share the first one's volume and mesh */
+        fixture->occluders[i] = (nook_ao_occluder){ 0 };
+    fixture_mesh_free(&mesh);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -231,6 +261,7 @@ int main(void)
         cmocka_unit_test(test_volume_combines_the_six_faces_of_a_cube_as_predicted),
         cmocka_unit_test(test_volume_steps_longer_than_a_shell_lose_what_theory_says),
         cmocka_unit_test(test_volume_reports_unbiased_distances),
+        cmocka_unit_test(test_volume_pays_only_for_occluders_within_reach),
     };
     return cmocka_run_group_tests(tests, ao_fixture_setup, ao_fixture_teardown);
 }
