@@ -21,8 +21,9 @@ test_every_header_compiles_alone_as_cpp17() { compile_each "${CXX:-c++}" -std=c+
 
 # Without it a C++ host looks for C++ names, and does not link.
 test_every_header_with_functions_is_extern_c() {
-    local header failed=0
-    for header in $(find engine modules -name '*.h' ! -name '*internal.h'); do
+    local header headers failed=0
+    mapfile -t headers < <(find engine modules -name '*.h' ! -name '*internal.h')
+    for header in "${headers[@]}"; do
         if grep -E '^[a-z][a-z0-9_ *]*nook_[a-z0-9_]+\(' "$header" | grep -qv '^static ' && ! grep -q 'extern "C"' "$header"; then
             echo "$header: declares functions without extern \"C\" for C++"
             failed=1

@@ -1,3 +1,4 @@
+# shellcheck shell=bash
 # For tests written in bash: source this, define functions test_*, end with `run_tests`. Each runs in a subshell with
 # `set -e`, so the first command that fails fails it; reports look like cmocka's, which ./nook test counts.
 
