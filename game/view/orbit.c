@@ -17,7 +17,7 @@ static double clamp(double x, double low, double high)
     return x < low ? low : x > high ? high : x;
 }
 
-nook_orbit nook_orbit_from_camera(const nook_camera *camera, const double centre[3], double scale)
+nook_orbit nook_orbit_from_camera(const nook_camera *camera, const double centre[3], double shortest, double longest)
 {
     nook_orbit orbit = { .fov_y_radians = camera->fov_y_radians, .z_near = camera->z_near };
     nook_matrix world_from_view;
@@ -30,7 +30,7 @@ nook_orbit nook_orbit_from_camera(const nook_camera *camera, const double centre
     orbit.yaw = atan2(-forward[0], -forward[2]);
     for (int i = 0; i < 3; i++)
         along += (centre[i] - eye[i]) * forward[i];
-    orbit.distance = clamp(along, 0.1 * scale, 4.0 * scale);
+    orbit.distance = clamp(along, shortest, longest);
     for (int i = 0; i < 3; i++)
         orbit.target[i] = eye[i] + orbit.distance * forward[i];
     return orbit;

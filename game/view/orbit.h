@@ -12,9 +12,9 @@ typedef struct nook_orbit {
 
 /**
  * The orbit that sees what a camera sees (without its roll), around the point ahead of it that is nearest to `centre`.
- * @param scale  metres, the size of the scene: keeps the distance sensible
+ * @param shortest, longest  metres between which the distance is kept
  */
-nook_orbit nook_orbit_from_camera(const nook_camera *camera, const double centre[3], double scale);
+nook_orbit nook_orbit_from_camera(const nook_camera *camera, const double centre[3], double shortest, double longest);
 nook_camera nook_orbit_camera(const nook_orbit *orbit);
 
 void nook_orbit_turn(nook_orbit *orbit, double yaw_radians, double pitch_radians);

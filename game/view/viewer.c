@@ -54,6 +54,23 @@ static void read_keys(viewer *v, const nook_input *input)
     }
 }
 
+/* In a room the hand turns the head; from outside it turns the scene. */
+static nook_orbit orbit_from(const viewer *v, const nook_camera *camera)
+{
+    const nook_scene *scene = v->stage->scene;
+    const double origin[3] = { 0.0, 0.0, 0.0 };
+    nook_matrix world_from_view;
+    double centre[3], eye[3];
+    bool inside = true;
+    nook_matrix_inverse_affine(&camera->view_from_world, &world_from_view);
+    nook_matrix_apply_point(&world_from_view, origin, eye);
+    for (int i = 0; i < 3; i++) {
+        centre[i] = 0.5 * (scene->bounds_min[i] + scene->bounds_max[i]);
+        inside = inside && eye[i] > scene->bounds_min[i] && eye[i] < scene->bounds_max[i];
+    }
+    return nook_orbit_from_camera(camera, centre, 0.05 * v->diagonal, (inside ? 0.08 : 2.0) * v->diagonal);
+}
+
 static void next_camera(viewer *v)
 {
     const nook_scene *scene = v->stage->scene;
@@ -64,10 +81,7 @@ static void next_camera(viewer *v)
         return;
     v->camera++;
     nook_camera camera = nook_camera_from_scene(found);
-    double centre[3];
-    for (int i = 0; i < 3; i++)
-        centre[i] = 0.5 * (scene->bounds_min[i] + scene->bounds_max[i]);
-    v->orbit = nook_orbit_from_camera(&camera, centre, 0.5 * v->diagonal);
+    v->orbit = orbit_from(v, &camera);
     v->changed = true;
     nook_log_info("view: camera %s", found->name);
 }
@@ -199,13 +213,10 @@ static nook_result loop(viewer *v)
 nook_result nook_view_run(nook_stage *stage, const nook_camera *camera, const char *scene_name)
 {
     viewer v = { .stage = stage, .scene_name = scene_name, .changed = true, .polled_ms = nook_clock_ms() };
-    const nook_scene *scene = stage->scene;
-    double centre[3], rays;
-    for (int i = 0; i < 3; i++)
-        centre[i] = 0.5 * (scene->bounds_min[i] + scene->bounds_max[i]);
-    v.diagonal = nook_scene_diagonal(scene);
+    double rays;
+    v.diagonal = nook_scene_diagonal(stage->scene);
     v.moved_ms = v.polled_ms - still_after_ms;
-    v.orbit = nook_orbit_from_camera(camera, centre, 0.5 * v.diagonal);
+    v.orbit = orbit_from(&v, camera);
     nook_result result = nook_ao_get_param(stage->ao, "ao.scale", &v.scale);
     if (result == NOOK_OK)
         result = nook_ao_get_param(stage->ao, "reference.rays", &rays);

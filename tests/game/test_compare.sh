@@ -2,7 +2,7 @@
 # The command `compare` from end to end, without a window, on a crate that stands on a floor.
 cd "${NOOK_ROOT:-$PWD}" || exit 1
 source tests/support/shell.sh
-tmp=${NOOK_TEST_TMP:-/tmp}
+tmp=${NOOK_TEST_TMP:-$(mktemp -d)}
 crate=tests/game/data/crate.gltf
 unset DISPLAY WAYLAND_DISPLAY
 

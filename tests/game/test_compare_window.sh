@@ -2,22 +2,39 @@
 # `compare` with a display: a window under Xvfb, steered with xdotool.
 cd "${NOOK_ROOT:-$PWD}" || exit 1
 source tests/support/shell.sh
-tmp=${NOOK_TEST_TMP:-/tmp}
+tmp=${NOOK_TEST_TMP:-$(mktemp -d)}
 crate=tests/game/data/crate.gltf
 export tmp crate program=${NOOK_PROGRAM:-build/release/bin/nook}
 
 need_display() {
     local tool
-    for tool in xvfb-run xdotool import; do
+    for tool in Xvfb xdotool import; do
         command -v $tool >/dev/null || skip_test "$tool is not installed"
     done
+}
+
+# with_display COMMAND...: under an X server of its own, which finds itself a free display (xvfb-run only guesses) and does not
+# start over whenever nobody is connected, as between two calls of xdotool.
+with_display() {
+    local server code=0
+    rm -f "$tmp/display"
+    Xvfb -displayfd 1 -screen 0 800x600x24 -nolisten tcp -noreset >"$tmp/display" 2>"$tmp/xvfb.log" &
+    server=$!
+    for _ in {1..100}; do
+        [ ! -s "$tmp/display" ] || break
+        sleep 0.1
+    done
+    DISPLAY=:$(cat "$tmp/display") timeout 200 "$@" || code=$?
+    kill $server
+    wait $server || true
+    return $code
 }
 
 # in_window SCRIPT: runs it beside the program, with its window in $window; the program must end with exit code 0.
 in_window() {
     need_display
     export script=$1
-    timeout 200 xvfb-run -a -s '-screen 0 800x600x24' bash -euc '
+    with_display bash -euc '
         "$program" compare "$crate" --size 320x200 --frames 1 --reference-rays 4 --cache "$tmp/cache" --out "$tmp/out" \
             >"$tmp/table" 2>"$tmp/log" &
         program_id=$!
@@ -26,7 +43,7 @@ in_window() {
             shift
             until "$@"; do
                 tries=$((tries - 1))
-                [ $tries -gt 0 ] && kill -0 $program_id || { echo "waited in vain for: $*"; cat "$tmp/log"; kill $program_id; exit 1; }
+                [ $tries -gt 0 ] && kill -0 $program_id || { echo "waited in vain for: $*"; cat "$tmp/log"; kill $program_id 2>/dev/null || true; wait $program_id || echo "exit code $?"; exit 1; }
                 sleep 0.2
             done
         }
@@ -80,7 +97,7 @@ test_dragging_turns_the_picture_and_a_new_size_is_filled() {
 
 test_no_window_is_opened_when_none_is_wanted() {
     need_display
-    timeout 100 xvfb-run -a "$program" compare "$crate" --size 64x64 --frames 1 --reference-rays 4 --cache "$tmp/cache" \
+    with_display "$program" compare "$crate" --size 64x64 --frames 1 --reference-rays 4 --cache "$tmp/cache" \
         --out "$tmp/out" --techniques ssao --no-window
 }
 

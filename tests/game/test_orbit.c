@@ -34,7 +34,7 @@ static void test_an_orbit_sees_what_its_camera_saw(void **state)
     for (size_t i = 0; i < NOOK_COUNT(views); i++) {
         const double *v = views[i];
         nook_camera camera = look(v[0], v[1], v[2], v[3], v[4], v[5]);
-        nook_orbit orbit = nook_orbit_from_camera(&camera, centre, 10.0);
+        nook_orbit orbit = nook_orbit_from_camera(&camera, centre, 1.0, 40.0);
         nook_camera again = nook_orbit_camera(&orbit);
         for (int j = 0; j < 16; j++)
             assert_near(again.view_from_world.m[j], camera.view_from_world.m[j]);
@@ -46,7 +46,7 @@ static void test_turning_keeps_the_target_in_the_middle_at_its_distance(void **s
 {
     (void)state;
     nook_camera camera = look(4, 3, 5, 0, 1, 0);
-    nook_orbit orbit = nook_orbit_from_camera(&camera, centre, 10.0);
+    nook_orbit orbit = nook_orbit_from_camera(&camera, centre, 1.0, 40.0);
     double distance = orbit.distance, view[3];
     for (int i = 0; i < 50; i++) {
         nook_orbit_turn(&orbit, 0.7, 0.3);
@@ -63,7 +63,7 @@ static void test_panning_moves_the_picture_by_what_was_asked(void **state)
 {
     (void)state;
     nook_camera camera = look(4, 3, 5, 0, 1, 0);
-    nook_orbit orbit = nook_orbit_from_camera(&camera, centre, 10.0);
+    nook_orbit orbit = nook_orbit_from_camera(&camera, centre, 1.0, 40.0);
     const double mark[3] = { orbit.target[0], orbit.target[1], orbit.target[2] };
     double view[3];
     nook_orbit_pan(&orbit, 0.25, -0.5);
@@ -78,7 +78,7 @@ static void test_zooming_in_and_out_again_changes_nothing(void **state)
 {
     (void)state;
     nook_camera camera = look(4, 3, 5, 0, 1, 0);
-    nook_orbit orbit = nook_orbit_from_camera(&camera, centre, 10.0);
+    nook_orbit orbit = nook_orbit_from_camera(&camera, centre, 1.0, 40.0);
     double distance = orbit.distance;
     nook_orbit_zoom(&orbit, 3.0);
     assert_near(orbit.distance, distance * 0.9 * 0.9 * 0.9);
@@ -92,7 +92,7 @@ static void test_flying_forward_moves_the_eye_ahead(void **state)
 {
     (void)state;
     nook_camera camera = look(0, 1, 5, 0, 1, 0);
-    nook_orbit orbit = nook_orbit_from_camera(&camera, centre, 10.0);
+    nook_orbit orbit = nook_orbit_from_camera(&camera, centre, 1.0, 40.0);
     nook_orbit_fly(&orbit, 2.0, 1.0, 0.5);
     camera = nook_orbit_camera(&orbit);
     const double eye[3] = { 1.0, 1.5, 3.0 };
@@ -106,7 +106,7 @@ static void test_a_camera_that_turns_its_back_still_orbits_something_ahead(void 
 {
     (void)state;
     nook_camera camera = look(4, 1, 0, 9, 1, 0); /* away from the centre */
-    nook_orbit orbit = nook_orbit_from_camera(&camera, centre, 10.0);
+    nook_orbit orbit = nook_orbit_from_camera(&camera, centre, 1.0, 40.0);
     assert_near(orbit.distance, 1.0);
     assert_near(orbit.target[0], 5.0);
 }
