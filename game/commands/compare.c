@@ -58,6 +58,10 @@ static nook_result check_finite(const nook_comparison *comparison)
         if (!row->errors.valid)
             return nook_fail(NOOK_E_DEVICE, "%s: %llu pixels are not finite; its errors mean nothing",
                              row->technique->name, (unsigned long long)row->errors.non_finite);
+        if (row->instability.non_finite > 0)
+            return nook_fail(NOOK_E_DEVICE,
+                             "%s: %llu points of the second view are not finite; its instability is nothing",
+                             row->technique->name, (unsigned long long)row->instability.non_finite);
     }
     return NOOK_OK;
 }
@@ -98,7 +102,10 @@ static nook_result compare(nook_stage *stage, const nook_compare_options *option
     if (result != NOOK_OK)
         return result;
     memcpy(comparison.camera, label, sizeof label);
-    result = report(stage, options, &comparison);
+    if (!options->no_instability)
+        result = nook_compare_steadiness(stage, &comparison);
+    if (result == NOOK_OK)
+        result = report(stage, options, &comparison);
     nook_comparison_free(&comparison);
     return result;
 }

@@ -87,6 +87,10 @@ bool nook_compare_options_read(const nook_app *app, int argc, char **argv, nook_
           .lowest = 1,
           .highest = 10000,
           .help = "timed frames of each technique; default: 5, fewer when they take seconds" },
+        { .name = "no-instability",
+          .kind = NOOK_OPTION_FLAG,
+          .target = &out->no_instability,
+          .help = "no second view, which costs every technique another frame" },
         { .name = "out",
           .kind = NOOK_OPTION_TEXT,
           .target = &out->out,
@@ -132,6 +136,9 @@ bool nook_compare_options_read(const nook_app *app, int argc, char **argv, nook_
         .details =
             "Files: compare.png (everything on one sheet), <technique>.png and .pfm (visibility, 1 = open),\n"
             "lit_<technique>.png, error_<technique>.png (blue: too bright, red: too dark), compare.json.\n"
+            "Instability (unsteady): RMS change of visibility at the same world points, seen from a second camera "
+            "turned 20\n"
+            "degrees around what stands in the picture's middle (10 or 5 where that shows too little of the same).\n"
             "Window: drag left to orbit, right to pan, scroll to zoom; 1-9 choose the technique, 0 none, V the view,\n"
             "C the camera; Esc quits.\n",
     };

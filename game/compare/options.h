@@ -20,6 +20,7 @@ typedef struct nook_compare_options {
     nook_backend backend;
     int32_t resolution; /**< Voxels along a body's longest side; 0: the baker's own default. */
     const char *cache;
+    bool no_instability; /**< No second view: about half the work. */
     bool no_window;
     bool json; /**< compare.json on standard output instead of the table. */
     char default_scene[NOOK_COMPARE_PATH_MAX], default_cache[NOOK_COMPARE_PATH_MAX];

@@ -59,7 +59,14 @@ static void write_errors(nook_json *json, const nook_errors *errors)
     nook_json_member_integer(json, "non_finite", (int64_t)errors->non_finite);
 }
 
-static void write_row(nook_json *json, const nook_ao *ao, const nook_compare_row *row)
+static void write_instability(nook_json *json, const nook_instability *instability)
+{
+    nook_json_member_number(json, "instability", instability->rms);
+    nook_json_member_number(json, "instability_relative", instability->relative);
+    nook_json_member_integer(json, "instability_pixels", (int64_t)instability->pixels);
+}
+
+static void write_row(nook_json *json, const nook_report *report, const nook_compare_row *row)
 {
     nook_json_begin_object(json);
     nook_json_member_string(json, "name", row->technique->name);
@@ -73,7 +80,10 @@ static void write_row(nook_json *json, const nook_ao *ao, const nook_compare_row
         write_errors(json, &row->errors);
         nook_json_member_number(json, "texture_fetches_per_pixel", row->fetches_per_pixel);
     }
-    write_params(json, "params", ao, row->technique->name, row->technique->params, row->technique->param_count);
+    if (report->comparison->second.measured)
+        write_instability(json, &row->instability);
+    write_params(json, "params", report->stage->ao, row->technique->name, row->technique->params,
+                 row->technique->param_count);
     nook_json_end_object(json);
 }
 
@@ -87,6 +97,19 @@ static void write_camera(nook_json *json, const nook_report *report)
     nook_json_member_number(json, "z_near", camera->z_near);
     nook_json_key(json, "view_from_world");
     nook_json_numbers(json, camera->view_from_world.m, 16);
+    nook_json_end_object(json);
+}
+
+static void write_second_camera(nook_json *json, const nook_second_view *second)
+{
+    if (!second->measured)
+        return;
+    nook_json_key(json, "second_camera");
+    nook_json_begin_object(json);
+    nook_json_member_number(json, "turn_degrees", second->degrees);
+    nook_json_member_number(json, "turn_distance", second->distance);
+    nook_json_key(json, "view_from_world");
+    nook_json_numbers(json, second->camera.view_from_world.m, 16);
     nook_json_end_object(json);
 }
 
@@ -130,17 +153,18 @@ static void write_all(nook_json *json, const nook_report *report)
     nook_json_key(json, "size");
     nook_json_numbers(json, size, 2);
     write_camera(json, report);
+    write_second_camera(json, &comparison->second);
     write_shared(json, report->stage->ao);
     nook_json_member_string(json, "renderer", report->stage->gpu->renderer);
     nook_json_member_integer(json, "triangles", (int64_t)report->stage->scene->triangle_count);
     nook_json_member_integer(json, "pixels_with_geometry", (int64_t)comparison->rows[0].errors.count);
     write_volumes(json, report->stage->world);
     nook_json_key(json, "reference");
-    write_row(json, report->stage->ao, &comparison->rows[0]);
+    write_row(json, report, &comparison->rows[0]);
     nook_json_key(json, "techniques");
     nook_json_begin_array(json);
     for (uint32_t i = 1; i < comparison->row_count; i++)
-        write_row(json, report->stage->ao, &comparison->rows[i]);
+        write_row(json, report, &comparison->rows[i]);
     nook_json_end_array(json);
     nook_json_end_object(json);
 }

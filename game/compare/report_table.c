@@ -10,7 +10,7 @@ static void print_number(FILE *stream, int width, const char *format, double val
     fprintf(stream, " %*s", width, text);
 }
 
-static void print_row(FILE *stream, const nook_compare_row *row)
+static void print_row(FILE *stream, const nook_compare_row *row, const nook_second_view *second)
 {
     fprintf(stream, "%-12s", row->technique->name);
     print_number(stream, 10, "%.1f", row->ms_median);
@@ -23,6 +23,12 @@ static void print_row(FILE *stream, const nook_compare_row *row)
         print_number(stream, 8, "%.4f", row->errors.p99);
         print_number(stream, 8, "%.4f", row->errors.max);
         print_number(stream, 8, "%.1f", row->fetches_per_pixel);
+    } else if (second->measured) {
+        fprintf(stream, "%*s", 6 * (8 + 1), "");
+    }
+    if (second->measured) {
+        print_number(stream, 8, "%.4f", row->instability.rms);
+        print_number(stream, 8, "%.3f", row->instability.relative);
     }
     fputc('\n', stream);
 }
@@ -44,6 +50,20 @@ static void print_volumes(const nook_report *report, FILE *stream)
     fprintf(stream, "%s\n", cached == count ? ", all from the cache" : "");
 }
 
+static void print_second(const nook_second_view *second, FILE *stream)
+{
+    if (!second->measured)
+        return;
+    if (second->shared == 0) {
+        fputs("Unsteady: no overlap, no camera to the side sees any of the same points.\n", stream);
+        return;
+    }
+    fprintf(stream,
+            "Unsteady: RMS change at the %llu points that a camera %g degrees to the %s sees too; relative: 1 = "
+            "unrelated.\n",
+            (unsigned long long)second->shared, fabs(second->degrees), second->degrees > 0.0 ? "right" : "left");
+}
+
 void nook_report_print_table(const nook_report *report, FILE *stream)
 {
     const nook_comparison *comparison = report->comparison;
@@ -57,10 +77,12 @@ void nook_report_print_table(const nook_report *report, FILE *stream)
             nook_report_param(ao, "ao", nook_param_find(params, count, "falloff"), falloff, sizeof falloff),
             report->stage->gpu->renderer);
     print_volumes(report, stream);
-    fprintf(stream, "\n%-12s %10s %10s %10s %8s %8s %8s %8s %8s %8s\n", "technique", "ms median", "min", "max", "RMSE",
-            "MAE", "bias", "99 %", "largest", "fetches");
+    fprintf(stream, "\n%-12s %10s %10s %10s %8s %8s %8s %8s %8s %8s%s\n", "technique", "ms median", "min", "max",
+            "RMSE", "MAE", "bias", "99 %", "largest", "fetches",
+            comparison->second.measured ? " unsteady relative" : "");
     for (uint32_t i = 0; i < comparison->row_count; i++)
-        print_row(stream, &comparison->rows[i]);
+        print_row(stream, &comparison->rows[i], &comparison->second);
     fprintf(stream, "\nErrors of visibility against the reference; bias + is too bright. Pictures: %s/compare.png\n",
             report->out);
+    print_second(&comparison->second, stream);
 }

@@ -137,7 +137,7 @@ static nook_result count_fetches(nook_stage *stage, nook_compare_row *row)
     return nook_ao_set_param(stage->ao, "ao.count", 0.0);
 }
 
-static nook_result read_visibility(nook_stage *stage, nook_grey *out_grey)
+nook_result nook_compare_read_visibility(nook_stage *stage, nook_grey *out_grey)
 {
     nook_ao_texture texture = nook_ao_visibility(stage->ao);
     nook_result result = nook_grey_create(texture.width, texture.height, out_grey);
@@ -194,7 +194,7 @@ static nook_result run_technique(nook_stage *stage, double budget_ms, nook_compa
     if (result == NOOK_OK)
         result = time_frames(stage, budget_ms, row);
     if (result == NOOK_OK)
-        result = read_visibility(stage, &row->visibility);
+        result = nook_compare_read_visibility(stage, &row->visibility);
     return result == NOOK_OK ? read_lit(stage, &row->lit) : result;
 }
 

@@ -1,9 +1,11 @@
 #pragma once
 #include "engine/core/result.h"
 #include "game/compare/options.h"
+#include "game/compare/second_view.h"
 #include "game/stage.h"
 #include "modules/ao/technique.h"
 #include "modules/measure/errors.h"
+#include "modules/measure/instability.h"
 #include "modules/measure/pfm.h"
 #include "modules/measure/picture.h"
 
@@ -17,6 +19,7 @@ typedef struct nook_compare_row {
     uint32_t frames;                  /**< Timed ones. */
     double fetches_per_pixel;         /**< NaN for techniques that count none. */
     nook_errors errors;               /**< Against the reference; of the reference itself all 0. */
+    nook_instability instability;     /**< Between the two views; all 0 when there is no second. */
     nook_grey visibility;             /**< Owned. */
     nook_picture lit;                 /**< Owned. */
 } nook_compare_row;
@@ -27,7 +30,8 @@ typedef struct nook_comparison {
     uint32_t row_count;
     uint8_t *geometry; /**< One byte a pixel, bottom row first: not 0 where something was drawn. Owned. */
     uint32_t width, height;
-    char camera[256]; /**< What to call the view. */
+    char camera[256];        /**< What to call the view. */
+    nook_second_view second; /**< Not measured until nook_compare_steadiness. */
 } nook_comparison;
 
 /** Which techniques a comparison runs: the exact one first, then those of a list. */
@@ -50,4 +54,8 @@ nook_result nook_compare_choose(const nook_ao *ao, const char *list, nook_compar
  */
 nook_result nook_compare_run(nook_stage *stage, const nook_camera *camera, const nook_compare_choice *choice,
                              uint32_t frames, nook_comparison *out_comparison);
+
+/** What the last record made. @param out_grey  owned by the caller @return NOOK_E_MEMORY, NOOK_E_RANGE; untouched then */
+nook_result nook_compare_read_visibility(nook_stage *stage, nook_grey *out_grey);
+
 void nook_comparison_free(nook_comparison *comparison); /**< Zeroed ones are allowed. */

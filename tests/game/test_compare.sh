@@ -50,6 +50,32 @@ test_compare_json_holds_what_was_measured() {
     awk -v fetches="$(json_number "$tmp/printed" texture_fetches_per_pixel)" 'BEGIN { exit !(fetches > 1 && fetches < 5000) }'
 }
 
+test_instability_is_measured_from_a_second_camera() {
+    compare_crate --out "$tmp/unsteady" --techniques volume,ssao --json >"$tmp/printed"
+    assert_holds "$(cat "$tmp/printed")" '"second_camera":'
+    [ "$(grep -c '"instability":' "$tmp/printed")" -eq 3 ] # the reference's own is the floor
+    local turn pixels geometry
+    turn=$(json_number "$tmp/printed" turn_degrees)
+    pixels=$(json_number "$tmp/printed" instability_pixels)
+    geometry=$(json_number "$tmp/printed" pixels_with_geometry)
+    [ "$turn" = 20 ] || [ "$turn" = -20 ]
+    [ "$pixels" -ge $((geometry / 4)) ]
+    [ "$pixels" -lt "$geometry" ] # it does not see the crate's other side
+    awk -v floor="$(json_number "$tmp/printed" instability)" 'BEGIN { exit !(floor > 0 && floor < 0.1) }'
+}
+
+test_instability_can_be_left_out_and_changes_nothing_else() {
+    compare_crate --out "$tmp/steady" --techniques volume >"$tmp/table"
+    assert_holds "$(cat "$tmp/table")" unsteady
+    compare_crate --out "$tmp/plain" --techniques volume --no-instability >"$tmp/table"
+    ! grep -qi unsteady "$tmp/table"
+    ! grep -q 'instability\|second_camera' "$tmp/plain/compare.json"
+    cmp "$tmp/steady/volume.pfm" "$tmp/plain/volume.pfm"
+    # The camera of the report is the first one, whoever looked last.
+    [ "$(grep -m 1 view_from_world "$tmp/steady/compare.json")" = "$(grep -m 1 view_from_world "$tmp/plain/compare.json")" ]
+    [ "$(json_number "$tmp/steady/compare.json" rmse)" = "$(json_number "$tmp/plain/compare.json" rmse)" ]
+}
+
 test_compare_gives_the_same_picture_twice() {
     compare_crate --out "$tmp/once" --techniques volume,ssao
     compare_crate --out "$tmp/twice" --techniques volume,ssao

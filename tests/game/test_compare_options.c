@@ -40,7 +40,7 @@ static void test_nothing_given_means_the_demo_level_and_every_technique(void **s
     assert_true(options.r_max == 0.0);
     assert_int_equal(options.backend, NOOK_BACKEND_AUTO);
     assert_int_equal(options.reference_rays, 0);
-    assert_false(options.no_window || options.json);
+    assert_false(options.no_window || options.json || options.no_instability);
 }
 
 static void test_every_option_reaches_its_field(void **state)
@@ -59,14 +59,14 @@ static void test_every_option_reaches_its_field(void **state)
     assert_true(options.no_window);
     assert_int_equal(options.backend, NOOK_BACKEND_OSMESA);
     assert_true(READ(&options, "--camera", "-1,2,3,0,0,0,60", "--falloff", "linear", "--reference-rays", "64",
-                     "--frames", "3", "--out", "there", "--cache", "here", "--json"));
+                     "--frames", "3", "--out", "there", "--cache", "here", "--no-instability", "--json"));
     assert_string_equal(options.camera, "-1,2,3,0,0,0,60");
     assert_string_equal(options.falloff, "linear");
     assert_int_equal(options.reference_rays, 64);
     assert_int_equal(options.frames, 3);
     assert_string_equal(options.out, "there");
     assert_string_equal(options.cache, "here");
-    assert_true(options.json);
+    assert_true(options.json && options.no_instability);
 }
 
 static void test_scale_is_understood_in_all_its_spellings(void **state)
