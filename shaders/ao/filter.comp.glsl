@@ -75,7 +75,7 @@ void add_sample(inout Mean mean, Guide guide, ivec2 q, float window)
         return;
     float depth = texelFetch(depth_trace, q, 0).r;
     float weight = depth > 0.0 ? guide_weight(guide, q, depth) : 0.0;
-    if (weight < WEIGHT_MIN)
+    if (!(weight >= WEIGHT_MIN)) // nor has one that is not a number
         return;
     mean.sum += window * weight * (texelFetch(visibility_trace, q, 0).r - mean.reference);
     mean.weights += window * weight;

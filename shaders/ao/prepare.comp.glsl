@@ -7,15 +7,22 @@ layout(binding = 1) uniform sampler2D normal_world;
 layout(binding = 0, r32f) uniform writeonly image2D depth_out;
 layout(binding = 1, rg16) uniform writeonly image2D normal_out;
 
+// Squares of these distances are still floats; what lies beyond (a depth buffer that holds rubbish) counts as not seen.
+const float NEAREST = 1e-15, FARTHEST = 1e15;
+
+// 0 where nothing is seen, and outside of the image.
 float distance_at(ivec2 p)
 {
-    float d = texelFetch(device_depth, clamp(p, ivec2(0), frame.full_size - 1), 0).r;
+    if (any(lessThan(p, ivec2(0))) || any(greaterThanEqual(p, frame.full_size)))
+        return 0.0;
+    float d = texelFetch(device_depth, p, 0).r;
     float distance = frame.depth_to_distance.x / (d + frame.depth_to_distance.y);
-    bool seen = d != frame.depth_background && distance > 0.0 && distance < 1e30;
+    bool seen = d != frame.depth_background && distance > NEAREST && distance < FARTHEST; // false for NaN
     return seen ? distance : 0.0;
 }
 
-// The side of p along `direction` that leaves the surface least: a neighbour may lie on another object.
+// The side of p along `direction` that leaves the surface least: a neighbour may lie on another object. In units of the
+// distance to p, so that neither a tiny nor a huge world leaves the range of floats.
 vec3 slope(ivec2 p, float centre, ivec2 direction)
 {
     float before = distance_at(p - direction), after = distance_at(p + direction);
@@ -24,7 +31,7 @@ vec3 slope(ivec2 p, float centre, ivec2 direction)
     if (other <= 0.0)
         other = centre;
     ivec2 neighbour = use_after ? p + direction : p - direction;
-    vec3 difference = full_ray(vec2(neighbour)) * other - full_ray(vec2(p)) * centre;
+    vec3 difference = full_ray(vec2(neighbour)) * (other / centre) - full_ray(vec2(p));
     return use_after ? difference : -difference;
 }
 
@@ -38,9 +45,11 @@ vec3 normal_at(ivec2 p, float depth)
         if (size > 0.25 && size < 4.0) // false for NaN
             return view * inversesqrt(size);
     }
+    if (depth <= 0.0)
+        return vec3(0.0, 0.0, 1.0);
     vec3 rebuilt = cross(slope(p, depth, ivec2(1, 0)), slope(p, depth, ivec2(0, 1)));
     float size = dot(rebuilt, rebuilt);
-    return size > 0.0 ? rebuilt * inversesqrt(size) : vec3(0.0, 0.0, 1.0);
+    return size > 0.0 && size < 1e30 ? rebuilt * inversesqrt(size) : vec3(0.0, 0.0, 1.0);
 }
 
 void main()

@@ -242,7 +242,7 @@ static void test_reference_follows_transforms_of_an_instance(void **state)
     fixture_mesh_free(&mesh);
     /* Scaled to radius 0.8, mirrored in z, lifted to height 1, the whole world 3000 km away. */
     const double m[16] = { 0.8, 0, 0, 0, 0, 0.8, 0, 0, 0, 0, -2, 0, 3e6, -3e6, 1 + 1e6, 1 }, at[3] = { 3e6, -3e6, 1e6 };
-    memcpy(fixture->occluders[0].world_from_mesh, m, sizeof m);
+    memcpy(fixture->view->occluders[0].world_from_mesh, m, sizeof m);
     assert_true(fabs(ao_fixture_measure(fixture, "reference", at, up, 0.05).mean - 0.64 / 1.64) < 0.005);
 }
 

@@ -1,4 +1,4 @@
-#include "tests/support/ao_fixture.h"
+#include "tests/support/fixture_mesh.h"
 #include <assert.h>
 #include <math.h>
 #include <stdlib.h>

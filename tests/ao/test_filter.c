@@ -1,0 +1,281 @@
+/* Filter and upscaling alone: a technique that writes what the test paints. */
+#include "tests/support/ao_view.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <cmocka.h>
+
+static const char *const scales[] = { "full", "half", "quarter" };
+static const char *const filters[] = { "none", "disc" };
+static const double facing[3] = { 0, 0, 1 };
+
+static int setup(void **state)
+{
+    *state = ao_view_create(37, 23);
+    return 0;
+}
+
+static int teardown(void **state)
+{
+    ao_view_destroy(*state);
+    return 0;
+}
+
+static ao_view *start(void **state, uint32_t width, uint32_t height)
+{
+    ao_view *view = *state;
+    if (width != view->width || height != view->height)
+        ao_view_resize(view, width, height);
+    /* Narrow: a pixel is 1/100 of its distance wide, as in a common picture of more pixels. */
+    view->clip_from_view = nook_matrix_perspective_reversed(0.2, (double)width / height, 0.1);
+    view->paint = NULL;
+    ao_view_clear(view);
+    return view;
+}
+
+static uint32_t random_bits(uint32_t *state)
+{
+    *state = *state * 1664525u + 1013904223u;
+    return *state >> 8;
+}
+
+static double random_unit(uint32_t *state)
+{
+    return random_bits(state) / 16777216.0;
+}
+
+/** Depths and normals as wild as they come; about a fifth of the pixels see nothing. */
+static void draw_clutter(ao_view *view, uint32_t seed)
+{
+    for (uint32_t i = 0; i < view->width * view->height; i++) {
+        double distance = 0.1 * pow(1e4, random_unit(&seed)), n[3];
+        for (int axis = 0; axis < 3; axis++)
+            n[axis] = random_unit(&seed) - 0.5;
+        double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+        n[0] /= length, n[1] /= length, n[2] /= length;
+        if (random_bits(&seed) % 5)
+            ao_view_set_pixel(view, i % view->width, i / view->width, distance, n);
+    }
+}
+
+/** Without a filter the technique's own image is the result, and techniques write 1 where they see nothing. */
+static float paint_constant(const ao_view *view, uint32_t x, uint32_t y)
+{
+    int background = view->trace_depth[y * view->trace_width + x] == 0.0f;
+    return background && view->trace_width == view->width ? 1.0f : view->painted;
+}
+
+static void test_filter_gives_a_constant_back_bit_for_bit_and_background_as_one(void **state)
+{
+    static const uint32_t sizes[][2] = { { 37, 23 }, { 1, 1 }, { 5, 40 }, { 64, 16 } };
+    for (size_t k = 0; k < NOOK_COUNT(sizes) * 6; k++) {
+        ao_view *view = start(state, sizes[k / 6][0], sizes[k / 6][1]);
+        ao_view_param(view, "ao.scale", scales[k % 6 / 2]);
+        ao_view_param(view, "ao.filter", filters[k % 2]);
+        draw_clutter(view, (uint32_t)k);
+        view->paint = paint_constant;
+        for (int step = 0; step < 3; step++) {
+            view->painted = step == 0 ? 0.0f : step == 1 ? 0.1f : 0.7123456f;
+            ao_view_record(view, "probe");
+            for (uint32_t i = 0; i < view->width * view->height; i++) {
+                if (view->visibility[i] != (view->device_depth[i] > 0.0f ? view->painted : 1.0f))
+                    fail_msg("%ux%u, %s, %s, pixel %u: %.9g", view->width, view->height, scales[k % 6 / 2],
+                             filters[k % 2], i, view->visibility[i]);
+            }
+        }
+    }
+}
+
+/** 0 on the nearer surface, 1 behind. */
+static float paint_by_depth(const ao_view *view, uint32_t x, uint32_t y)
+{
+    return view->trace_depth[y * view->trace_width + x] < 2.0f ? 0.0f : 1.0f;
+}
+
+static void test_filter_leaks_nothing_across_a_step_of_depth(void **state)
+{
+    for (size_t k = 0; k < 6; k++) {
+        for (uint32_t edge = 15; edge < 20; edge++) {
+            ao_view *view = start(state, 37, 23);
+            ao_view_param(view, "ao.scale", scales[k / 2]);
+            ao_view_param(view, "ao.filter", filters[k % 2]);
+            for (uint32_t i = 0; i < 37 * 23; i++)
+                ao_view_set_pixel(view, i % 37, i / 37, i % 37 < edge ? 1.0 : 5.0, facing);
+            view->paint = paint_by_depth;
+            ao_view_record(view, "probe");
+            for (uint32_t i = 0; i < 37 * 23; i++) {
+                if (view->visibility[i] != (i % 37 < edge ? 0.0f : 1.0f))
+                    fail_msg("%s, %s, edge %u, pixel (%u, %u): %g", scales[k / 2], filters[k % 2], edge, i % 37, i / 37,
+                             view->visibility[i]);
+            }
+        }
+    }
+}
+
+/** 0 where the normal points to the left, 1 where it points to the right. */
+static float paint_by_normal(const ao_view *view, uint32_t x, uint32_t y)
+{
+    double n[3];
+    ao_decode_normal(view->trace_normals[y * view->trace_width + x], n);
+    return n[0] < 0.0 ? 0.0f : 1.0f;
+}
+
+static void test_filter_leaks_nothing_across_a_right_angle(void **state)
+{
+    /* An edge towards the camera along the line x = 0, z = -2: two planes at 45 degrees. */
+    const double half = sqrt(0.5), left[3] = { -half, 0, half }, right[3] = { half, 0, half };
+    for (size_t k = 0; k < 6; k++) {
+        ao_view *view = start(state, 37, 23);
+        ao_view_param(view, "ao.scale", scales[k / 2]);
+        ao_view_param(view, "ao.filter", filters[k % 2]);
+        for (uint32_t i = 0; i < 37 * 23; i++) {
+            double ray[3];
+            ao_view_position(view, i % 37, i / 37, 1.0, ray);
+            const double *n = ray[0] < 0.0 ? left : right;
+            ao_view_set_pixel(view, i % 37, i / 37, -2.0 * half / (n[0] * ray[0] - half), n);
+        }
+        view->paint = paint_by_normal;
+        ao_view_record(view, "probe");
+        for (uint32_t i = 0; i < 37 * 23; i++) {
+            double ray[3];
+            ao_view_position(view, i % 37, i / 37, 1.0, ray);
+            if (view->visibility[i] != (ray[0] < 0.0 ? 0.0f : 1.0f))
+                fail_msg("%s, %s, pixel (%u, %u): %g", scales[k / 2], filters[k % 2], i % 37, i / 37,
+                         view->visibility[i]);
+        }
+    }
+}
+
+static float paint_pattern(const ao_view *view, uint32_t x, uint32_t y)
+{
+    (void)view;
+    return (float)(x * 16 + y) / 256.0f;
+}
+
+static void test_filter_takes_the_nearest_sample_when_none_is_on_the_surface(void **state)
+{
+    /* The trace at half size picks odd columns: nothing it saw lies on the even ones. */
+    ao_view *view = start(state, 32, 16);
+    ao_view_param(view, "ao.scale", "half");
+    ao_view_param(view, "ao.filter", "disc");
+    for (uint32_t i = 0; i < 32 * 16; i++)
+        ao_view_set_pixel(view, i % 32, i / 32, i % 2 ? 50.0 : 1.0, facing);
+    view->paint = paint_pattern;
+    ao_view_record(view, "probe");
+    for (uint32_t i = 0; i < 32 * 16; i++) {
+        uint32_t x = i % 32, y = i / 32, right = x / 2, left = right ? right - 1 : 0;
+        if (x % 2)
+            continue;
+        uint32_t below = (y ? y - 1 : 0) / 2, above = y / 2; /* the trace rows of pixel rows 1, 3, 5, ... */
+        float got = view->visibility[i];
+        int nearest = 0;
+        for (uint32_t k = 0; k < 4; k++)
+            nearest |= got == paint_pattern(view, k & 1 ? right : left, k & 2 ? above : below);
+        if (!nearest)
+            fail_msg("pixel (%u, %u): %g is none of its four neighbours", x, y, got);
+    }
+}
+
+static float paint_ramp(const ao_view *view, uint32_t x, uint32_t y)
+{
+    (void)y;
+    uint32_t scale = (view->width + view->trace_width - 1) / view->trace_width;
+    return (float)(x * scale + scale / 2) / (float)view->width;
+}
+
+static void test_filter_of_a_ramp_stays_near_it_at_every_scale(void **state)
+{
+    ao_view *view = start(state, 96, 48);
+    double n[3] = { 0.6, 0, 0.8 };
+    for (uint32_t i = 0; i < 96 * 48; i++) {
+        double ray[3];
+        ao_view_position(view, i % 96, i / 96, 1.0, ray);
+        ao_view_set_pixel(view, i % 96, i / 96, -2.0 * n[2] / (n[0] * ray[0] - n[2]), n);
+    }
+    view->paint = paint_ramp;
+    for (int k = 0; k < 3; k++) {
+        ao_view_param(view, "ao.scale", scales[k]);
+        ao_view_param(view, "ao.filter", "disc");
+        ao_view_record(view, "probe");
+        double worst = 0.0;
+        for (uint32_t i = 0; i < 96 * 48; i++) {
+            uint32_t x = i % 96;
+            if (x >= 24 && x < 72) /* the disc of the quarter trace reaches 16 pixels: no border in it */
+                worst = fmax(worst, fabs(view->visibility[i] - x / 96.0) * 96.0);
+        }
+        /* Samples are whole pixels of the trace: off by half of one at the most, and a little by their uneven number. */
+        if (worst > 0.6 * (1 << k))
+            fail_msg("%s: the ramp is off by %.3f pixels", scales[k], worst);
+    }
+}
+
+static float paint_random(const ao_view *view, uint32_t x, uint32_t y)
+{
+    uint32_t seed = y * view->trace_width + x;
+    random_bits(&seed);
+    return (float)random_unit(&seed);
+}
+
+static void draw_absurdities(ao_view *view)
+{
+    static const float depths[] = { 0.0f,   -0.0f, 1.0f,      2.0f,      1e10f, 1e30f, 1e36f, 3e38f,
+                                    1e-30f, -1.0f, INFINITY, -INFINITY, NAN,   1e-40f };
+    uint32_t seed = 7;
+    for (uint32_t i = 0; i < view->width * view->height; i++) {
+        view->device_depth[i] = random_bits(&seed) % 3 ? depths[random_bits(&seed) % NOOK_COUNT(depths)]
+                                                       : (float)random_unit(&seed);
+        for (int k = 0; k < 2; k++)
+            view->normals[i][k] = (uint16_t)random_bits(&seed);
+    }
+}
+
+/* ao_view_record holds every pixel to [0, 1], which NaN is not. */
+static void test_filter_never_writes_nan_whatever_the_buffers_hold(void **state)
+{
+    for (size_t k = 0; k < 12; k++) {
+        ao_view *view = start(state, 37, 23);
+        ao_view_param(view, "ao.scale", scales[k % 6 / 2]);
+        ao_view_param(view, "ao.filter", filters[k % 2]);
+        draw_absurdities(view);
+        view->without_normals = k >= 6;
+        view->paint = paint_random;
+        ao_view_record(view, "probe");
+        view->without_normals = 0;
+    }
+}
+
+static void test_techniques_never_write_nan_whatever_the_buffers_hold(void **state)
+{
+    static const char *const techniques[] = { "volume", "ssao", "hsao", "reference" };
+    ao_view *view = start(state, 37, 23);
+    fixture_mesh mesh = { 0 };
+    fixture_box(&mesh, (double[]){ -1, -1, -3 }, (double[]){ 1, 1, -1 }, 63);
+    ao_view_add(view, &mesh, 16);
+    fixture_mesh_free(&mesh);
+    ao_view_param(view, "ao.scale", "full");
+    ao_view_param(view, "ao.filter", "disc");
+    for (size_t k = 0; k < NOOK_COUNT(techniques) * 3; k++) {
+        nook_ao_set_param(view->ao, "ao.r_max", k % 3 == 0 ? 1e-9 : k % 3 == 1 ? 1.0 : 1e9);
+        draw_absurdities(view);
+        ao_view_record(view, techniques[k / 3]);
+    }
+    ao_view_drop_occluders(view);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_filter_gives_a_constant_back_bit_for_bit_and_background_as_one),
+        cmocka_unit_test(test_filter_leaks_nothing_across_a_step_of_depth),
+        cmocka_unit_test(test_filter_leaks_nothing_across_a_right_angle),
+        cmocka_unit_test(test_filter_takes_the_nearest_sample_when_none_is_on_the_surface),
+        cmocka_unit_test(test_filter_of_a_ramp_stays_near_it_at_every_scale),
+        cmocka_unit_test(test_filter_never_writes_nan_whatever_the_buffers_hold),
+        cmocka_unit_test(test_techniques_never_write_nan_whatever_the_buffers_hold),
+    };
+    return cmocka_run_group_tests(tests, setup, teardown);
+}
