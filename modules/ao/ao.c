@@ -108,6 +108,17 @@ static size_t at_least_one(size_t size)
     return size ? size : 1;
 }
 
+/** Its name is the first part of its parameters' names: it must be told from the others and from "ao". */
+static nook_result check_name(const nook_ao *ao, const char *name)
+{
+    int taken = strcmp(name, "ao") == 0;
+    for (uint32_t i = 0; i < ao->slot_count; i++)
+        taken = taken || strcmp(ao->slots[i].technique->name, name) == 0;
+    if (taken || !*name || name[strspn(name, "abcdefghijklmnopqrstuvwxyz0123456789_")])
+        return nook_fail(NOOK_E_ARG, "technique \"%s\": the name is taken, or not of a-z, 0-9 and _", name);
+    return NOOK_OK;
+}
+
 nook_result nook_ao_add_technique(nook_ao *ao, const struct nook_ao_technique *technique)
 {
     if (technique->version != NOOK_AO_TECHNIQUE_VERSION)
@@ -115,11 +126,13 @@ nook_result nook_ao_add_technique(nook_ao *ao, const struct nook_ao_technique *t
                          technique->version, NOOK_AO_TECHNIQUE_VERSION);
     if (ao->slot_count == AO_TECHNIQUE_MAX)
         return nook_fail(NOOK_E_MEMORY, "technique %s: %d techniques are the most", technique->name, AO_TECHNIQUE_MAX);
+    nook_result result = check_name(ao, technique->name);
+    if (result != NOOK_OK)
+        return result;
     ao_slot slot = { .technique = technique };
     slot.state = calloc(1, at_least_one(technique->state_size));
     slot.params = calloc(1, at_least_one(technique->params_size));
-    nook_result result =
-        slot.state && slot.params ? NOOK_OK : nook_fail(NOOK_E_MEMORY, "technique %s: no memory", technique->name);
+    result = slot.state && slot.params ? NOOK_OK : nook_fail(NOOK_E_MEMORY, "technique %s: no memory", technique->name);
     if (result == NOOK_OK) {
         nook_param_reset(technique->params, technique->param_count, slot.params);
         result = nook_buffer_create(ao->gpu, slot.params, at_least_one(technique->params_size), &slot.buffer);
@@ -163,6 +176,12 @@ nook_result nook_ao_submit_occluders(nook_ao *ao, const nook_ao_occluder *occlud
     if (count > ao->occluder_max)
         return nook_fail(NOOK_E_ARG, "%u occluders: the context was made for %u (nook_ao_desc.max_occluders)", count,
                          ao->occluder_max);
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t volume = occluders[i].volume.id, mesh = occluders[i].mesh.id;
+        if ((volume && !volume_atlas_find(&ao->atlas, volume)) || (mesh && !ao_mesh_exists(ao, mesh)))
+            return nook_fail(NOOK_E_ARG, "occluder %u of %u: its volume %u or mesh %u has been removed", i, count, volume,
+                             mesh);
+    }
     if (count)
         memcpy(ao->occluders, occluders, count * sizeof *occluders);
     ao->occluder_count = count;

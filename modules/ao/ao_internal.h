@@ -71,4 +71,6 @@ void ao_targets_release(nook_gpu *gpu, ao_targets *targets);
 uint32_t ao_collect_volumes(nook_ao *ao, const nook_matrix *view_from_world);
 /** Composes this frame's traced instances into ao->instances and ao->mesh_views. @return how many instances */
 uint32_t ao_collect_meshes(nook_ao *ao, const nook_matrix *view_from_world);
+/** By id. */
+int ao_mesh_exists(const nook_ao *ao, uint32_t id);
 void ao_meshes_release(nook_ao *ao);

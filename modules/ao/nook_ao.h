@@ -71,7 +71,10 @@ nook_result nook_ao_create(const nook_ao_desc *desc, nook_ao **out_ao);
 void nook_ao_destroy(nook_ao *ao); /**< NULL is allowed. */
 nook_result nook_ao_set_size(nook_ao *ao, uint32_t width, uint32_t height);
 
-/** Makes a technique available by its name; link only those you use. @return NOOK_E_VERSION, NOOK_E_MEMORY, NOOK_E_DEVICE */
+/**
+ * Makes a technique available by its name; link only those you use. The first one added records until another is chosen.
+ * @return NOOK_E_VERSION; NOOK_E_ARG its name is taken; NOOK_E_MEMORY, NOOK_E_DEVICE
+ */
 nook_result nook_ao_add_technique(nook_ao *ao, const struct nook_ao_technique *technique);
 
 /**
@@ -111,7 +114,10 @@ const struct nook_ao_technique *nook_ao_technique_at(const nook_ao *ao, uint32_t
 /** The table of "ao.*" parameters. */
 const struct nook_param *nook_ao_shared_params(size_t *out_count);
 
-/** Replaces the list used by the next record. Call it every frame; count may be 0. @return NOOK_E_ARG too many or stale id */
+/**
+ * Replaces the list used by the next record. Call it every frame; count may be 0. What is removed after it is left out.
+ * @return NOOK_E_ARG too many, or an id that has been removed: then the list stays as it was
+ */
 nook_result nook_ao_submit_occluders(nook_ao *ao, const nook_ao_occluder *occluders, uint32_t count);
 
 /** Records prepare, trace, filter and upscale. @return NOOK_E_ARG, NOOK_E_DEVICE */

@@ -85,6 +85,11 @@ static uint32_t mesh_index(const nook_ao *ao, uint32_t id)
     return UINT32_MAX;
 }
 
+int ao_mesh_exists(const nook_ao *ao, uint32_t id)
+{
+    return mesh_index(ao, id) != UINT32_MAX;
+}
+
 uint32_t ao_collect_meshes(nook_ao *ao, const nook_matrix *view_from_world)
 {
     uint32_t count = 0;

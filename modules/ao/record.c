@@ -21,6 +21,14 @@ static uint32_t trace_scale(const nook_ao *ao, const nook_ao_technique *techniqu
     return technique->exact ? 1u : 1u << ao->shared.scale;
 }
 
+static int all_finite(const double m[16])
+{
+    int finite = 1;
+    for (int i = 0; i < 16; i++)
+        finite = finite && isfinite(m[i]);
+    return finite;
+}
+
 static nook_result check_frame(const nook_ao *ao, const nook_ao_frame *frame)
 {
     const double *p = frame->clip_from_view;
@@ -32,6 +40,8 @@ static nook_result check_frame(const nook_ao *ao, const nook_ao_frame *frame)
     if (frame->normal.native && (frame->normal.width != ao->width || frame->normal.height != ao->height))
         return nook_fail(NOOK_E_ARG, "nook_ao_record: normals are %ux%u, the context %ux%u", frame->normal.width,
                          frame->normal.height, ao->width, ao->height);
+    if (!all_finite(p) || !all_finite(frame->view_from_world))
+        return nook_fail(NOOK_E_ARG, "nook_ao_record: clip_from_view or view_from_world is not finite");
     if (p[11] != -1.0 || p[15] != 0.0 || !(fabs(p[0]) > 0.0) || !(fabs(p[5]) > 0.0) || p[14] == 0.0)
         return nook_fail(NOOK_E_ARG, "nook_ao_record: clip_from_view is not a perspective with w = -z");
     return NOOK_OK;

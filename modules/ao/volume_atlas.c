@@ -133,6 +133,16 @@ nook_result volume_atlas_add(volume_atlas *atlas, nook_volume *volume, uint32_t 
     return NOOK_OK;
 }
 
+/** Free boxes are never joined; but once nothing is left (a level is over), all of it is one again. */
+static void join_when_empty(volume_atlas *atlas)
+{
+    if (atlas->entry_count > 0)
+        return;
+    const atlas_box all = { { 0, 0, 0 }, { atlas->size[0], atlas->size[1], atlas->size[2] } };
+    atlas->free_count = 0;
+    add_free_box(atlas, &all);
+}
+
 void volume_atlas_remove(volume_atlas *atlas, uint32_t id)
 {
     for (uint32_t i = 0; i < atlas->entry_count; i++) {
@@ -141,6 +151,7 @@ void volume_atlas_remove(volume_atlas *atlas, uint32_t id)
         add_free_box(atlas, &atlas->entries[i].box);
         free(atlas->entries[i].pending);
         atlas->entries[i] = atlas->entries[--atlas->entry_count];
+        join_when_empty(atlas);
         return;
     }
 }
