@@ -52,7 +52,7 @@ struct Path {
     float start, end;    // metres; empty when start >= end
 };
 
-Path make_path(Occluder o, Receiver r, vec3 d, float cosine, float limit)
+Path make_path(Occluder o, Receiver r, vec3 d, float cosine)
 {
     Path path;
     path.origin = r.voxel;
@@ -60,23 +60,24 @@ Path make_path(Occluder o, Receiver r, vec3 d, float cosine, float limit)
     path.leave = r.guard / max(cosine, 1e-6);
     vec2 free = clip_to_volume(o, path.origin, path.along);
     path.start = max(free.x, path.leave);
-    path.end = min(free.y, limit);
+    path.end = min(free.y, frame.r_max);
     if (params.guard == 0)
         return path;
     path.lifted = r.voxel + r.normal * r.slab;
     path.across = path.along - r.normal * dot(r.normal, path.along);
     vec2 bound = clip_to_volume(o, path.lifted, path.across);
-    float first = max(bound.x, r.guard), last = min(min(bound.y, path.leave), limit);
+    float first = max(bound.x, r.guard), last = min(min(bound.y, path.leave), frame.r_max);
     bool below = first < last, above = path.start < path.end;
     path.end = above ? path.end : last;
     path.start = below ? first : path.start;
     return path;
 }
 
-// Distance of the first hit along d (unit, view space) before `limit`, or NO_HIT.
+// Distance of the first hit along d (unit, view space), or NO_HIT when there is none before `limit`. Where samples lie does not
+// depend on the limit, so that the nearest of several volumes is the same in whatever order they come.
 float march(Occluder o, Receiver r, vec3 d, float cosine, float limit, float jitter, inout uint fetches)
 {
-    Path path = make_path(o, r, d, cosine, limit);
+    Path path = make_path(o, r, d, cosine);
     if (!(path.start < path.end))
         return NO_HIT;
     // C9: a filtered layer of one voxel is 2 (1 - threshold) voxels thick; a longer step can jump over it.
@@ -86,15 +87,15 @@ float march(Occluder o, Receiver r, vec3 d, float cosine, float limit, float jit
     float count = clamp(ceil(needed), 1.0, float(params.steps));
     float dr = params.stepping == 0 ? frame.r_max / float(params.steps) : range / count;
     vec3 texel = 1.0 / vec3(textureSize(volume_atlas, 0));
+    // The mean hit lies dr/2 behind the filtered layer's front, the surface half a layer behind it.
+    float correction = 0.5 * (shell - dr), last = min(path.end, limit - correction);
     float t = path.start + jitter * dr;
-    for (int i = 0; i < int(count) && t < path.end; i++, t += dr) {
+    for (int i = 0; i < int(count) && t < last; i++, t += dr) {
         vec3 voxel = t < path.leave ? path.lifted + path.across * t : path.origin + path.along * t;
         voxel = clamp(voxel, vec3(MARGIN), o.size.xyz - MARGIN);
         fetches++;
-        if (textureLod(volume_atlas, (o.atlas.xyz + voxel) * texel, 0.0).r >= params.threshold) {
-            // The mean hit lies dr/2 behind the filtered layer's front, the surface half a layer behind it.
-            return max(t + 0.5 * (shell - dr), 0.0);
-        }
+        if (textureLod(volume_atlas, (o.atlas.xyz + voxel) * texel, 0.0).r >= params.threshold)
+            return max(t + correction, 0.0);
     }
     return NO_HIT;
 }
