@@ -38,14 +38,14 @@ bool tile_reaches(Occluder o)
     return dot(outside, outside) <= reach * reach;
 }
 
-// Lists the occluders [first, first + CHUNK) that reach the tile. Uniform control flow.
-void tile_list(int first)
+// Lists the occluders [first, min(first + CHUNK, end)) that reach the tile. Uniform control flow.
+void tile_list(int first, int end)
 {
     barrier();
     if (gl_LocalInvocationIndex == 0u)
         tile_count = 0u;
     barrier();
-    int last = min(first + CHUNK, frame.occluder_count);
+    int last = min(first + CHUNK, end);
     for (int i = first + int(gl_LocalInvocationIndex); i < last; i += TILE_SIZE * TILE_SIZE) {
         if (tile_reaches(occluders[i]))
             tile_items[atomicAdd(tile_count, 1u)] = i;

@@ -12,7 +12,9 @@ layout(std140, binding = 1) uniform Params {
 } params;
 layout(binding = 0) uniform sampler2D depth_texture;
 layout(binding = 1) uniform sampler2D normal_texture;
-layout(binding = 0, r32f) uniform writeonly image2D visibility_image;
+layout(binding = 0, r32f) uniform image2D visibility_image;
+// Rays x to y - 1 of occluders z to w - 1: this dispatch's part of the work, see modules/ao_volume/volume.c.
+layout(location = 0) uniform ivec4 part;
 
 const int BATCH = 8;                  // rays whose nearest hits are held in registers
 const float FILTER_PRECISION = 0.015; // voxels: hardware interpolates with 8-bit weights, three axes of 1/256 and a little
@@ -100,21 +102,21 @@ float march(Occluder o, Receiver r, vec3 d, float cosine, float limit, float jit
     return NO_HIT;
 }
 
-// Exact for any number of volumes: rho of the nearest hit, ray by ray. Uniform control flow.
+// Exact for any number of volumes: rho of the nearest hit, ray by ray. Uniform control flow. Returns this part's share of A.
 float occlusion_union(bool inside, vec3 position, vec3 normal, ivec2 pixel, inout uint fetches)
 {
     vec3 tangent, bitangent;
     tangent_frame(normal, tangent, bitangent);
     int block = direction_block(pixel);
     float shift = noise(pixel, 1u), sum = 0.0;
-    for (int first = 0; first < params.rays; first += BATCH) {
-        int batch = min(BATCH, params.rays - first);
+    for (int first = part.x; first < part.y; first += BATCH) {
+        int batch = min(BATCH, part.y - first);
         float nearest[BATCH];
         for (int j = 0; j < BATCH; j++)
             nearest[j] = frame.r_max;
-        for (int chunk = 0; chunk < frame.occluder_count; chunk += CHUNK) {
-            if (first == 0 || frame.occluder_count > CHUNK)
-                tile_list(chunk);
+        for (int chunk = part.z; chunk < part.w; chunk += CHUNK) {
+            if (first == part.x || part.w - part.z > CHUNK)
+                tile_list(chunk, part.w);
             for (uint i = 0u; inside && i < tile_count; i++) {
                 Occluder o = occluders[tile_items[i]];
                 Receiver r = receive(o, position, normal);
@@ -133,22 +135,23 @@ float occlusion_union(bool inside, vec3 position, vec3 normal, ivec2 pixel, inou
     return sum / float(params.rays);
 }
 
-// The paper's: product of the volumes' visibilities; darkens where volumes overlap, lights where they do not (C5).
-float occlusion_multiply(bool inside, vec3 position, vec3 normal, ivec2 pixel, inout uint fetches)
+// The paper's: product of the volumes' visibilities; darkens where volumes overlap, lights where they do not (C5). Returns this
+// part's factor.
+float visibility_multiply(bool inside, vec3 position, vec3 normal, ivec2 pixel, inout uint fetches)
 {
     vec3 tangent, bitangent;
     tangent_frame(normal, tangent, bitangent);
     int block = direction_block(pixel);
     float shift = noise(pixel, 1u), visibility = 1.0;
-    for (int chunk = 0; chunk < frame.occluder_count; chunk += CHUNK) {
-        tile_list(chunk);
+    for (int chunk = part.z; chunk < part.w; chunk += CHUNK) {
+        tile_list(chunk, part.w);
         for (uint i = 0u; inside && i < tile_count; i++) {
             Occluder o = occluders[tile_items[i]];
             Receiver r = receive(o, position, normal);
             if (!r.can_see)
                 continue;
             float sum = 0.0;
-            for (int j = 0; j < params.rays; j++) {
+            for (int j = part.x; j < part.y; j++) {
                 vec3 d = direction(j, block, tangent, bitangent, normal);
                 float jitter = fract(shift + float(j) * 0.61803399);
                 sum += falloff(march(o, r, d, dot(d, normal), frame.r_max, jitter, fetches));
@@ -156,22 +159,25 @@ float occlusion_multiply(bool inside, vec3 position, vec3 normal, ivec2 pixel, i
             visibility *= 1.0 - sum / float(params.rays);
         }
     }
-    return 1.0 - visibility;
+    return visibility;
 }
 
 void main()
 {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     bool on_image = all(lessThan(pixel, frame.size));
-    float depth = on_image ? texelFetch(depth_texture, pixel, 0).r : 0.0, occlusion = 0.0;
+    float depth = on_image ? texelFetch(depth_texture, pixel, 0).r : 0.0;
+    float visibility = part.x == 0 && part.z == 0 || !on_image ? 1.0 : imageLoad(visibility_image, pixel).r;
     uint fetches = 0u;
     if (tile_begin(depth)) {
         vec3 position = view_position(pixel, depth);
         vec3 normal = on_image ? nook_octahedral_decode(texelFetch(normal_texture, pixel, 0).xy) : vec3(0.0, 0.0, 1.0);
-        occlusion = params.combine == 0 ? occlusion_multiply(depth > 0.0, position, normal, pixel, fetches)
-                                        : occlusion_union(depth > 0.0, position, normal, pixel, fetches);
+        if (params.combine == 0)
+            visibility *= visibility_multiply(depth > 0.0, position, normal, pixel, fetches);
+        else
+            visibility -= occlusion_union(depth > 0.0, position, normal, pixel, fetches);
     }
     if (on_image)
-        imageStore(visibility_image, pixel, vec4(depth > 0.0 ? clamp(1.0 - occlusion, 0.0, 1.0) : 1.0));
+        imageStore(visibility_image, pixel, vec4(depth > 0.0 ? clamp(visibility, 0.0, 1.0) : 1.0));
     count_fetches(fetches);
 }

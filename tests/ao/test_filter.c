@@ -10,7 +10,7 @@
 #include <cmocka.h>
 
 static const char *const scales[] = { "full", "half", "quarter" };
-static const char *const filters[] = { "none", "disc" };
+static const char *const filters[] = { "none", "disc", "tile" };
 static const double facing[3] = { 0, 0, 1 };
 
 static int setup(void **state)
@@ -72,10 +72,10 @@ static float paint_constant(const ao_view *view, uint32_t x, uint32_t y)
 static void test_filter_gives_a_constant_back_bit_for_bit_and_background_as_one(void **state)
 {
     static const uint32_t sizes[][2] = { { 37, 23 }, { 1, 1 }, { 5, 40 }, { 64, 16 } };
-    for (size_t k = 0; k < NOOK_COUNT(sizes) * 6; k++) {
-        ao_view *view = start(state, sizes[k / 6][0], sizes[k / 6][1]);
-        ao_view_param(view, "ao.scale", scales[k % 6 / 2]);
-        ao_view_param(view, "ao.filter", filters[k % 2]);
+    for (size_t k = 0; k < NOOK_COUNT(sizes) * 9; k++) {
+        ao_view *view = start(state, sizes[k / 9][0], sizes[k / 9][1]);
+        ao_view_param(view, "ao.scale", scales[k % 9 / 3]);
+        ao_view_param(view, "ao.filter", filters[k % 3]);
         draw_clutter(view, (uint32_t)k);
         view->paint = paint_constant;
         for (int step = 0; step < 3; step++) {
@@ -83,8 +83,8 @@ static void test_filter_gives_a_constant_back_bit_for_bit_and_background_as_one(
             ao_view_record(view, "probe");
             for (uint32_t i = 0; i < view->width * view->height; i++) {
                 if (view->visibility[i] != (view->device_depth[i] > 0.0f ? view->painted : 1.0f))
-                    fail_msg("%ux%u, %s, %s, pixel %u: %.9g", view->width, view->height, scales[k % 6 / 2],
-                             filters[k % 2], i, view->visibility[i]);
+                    fail_msg("%ux%u, %s, %s, pixel %u: %.9g", view->width, view->height, scales[k % 9 / 3],
+                             filters[k % 3], i, view->visibility[i]);
             }
         }
     }
@@ -98,18 +98,18 @@ static float paint_by_depth(const ao_view *view, uint32_t x, uint32_t y)
 
 static void test_filter_leaks_nothing_across_a_step_of_depth(void **state)
 {
-    for (size_t k = 0; k < 6; k++) {
+    for (size_t k = 0; k < 9; k++) {
         for (uint32_t edge = 15; edge < 20; edge++) {
             ao_view *view = start(state, 37, 23);
-            ao_view_param(view, "ao.scale", scales[k / 2]);
-            ao_view_param(view, "ao.filter", filters[k % 2]);
+            ao_view_param(view, "ao.scale", scales[k / 3]);
+            ao_view_param(view, "ao.filter", filters[k % 3]);
             for (uint32_t i = 0; i < 37 * 23; i++)
                 ao_view_set_pixel(view, i % 37, i / 37, i % 37 < edge ? 1.0 : 5.0, facing);
             view->paint = paint_by_depth;
             ao_view_record(view, "probe");
             for (uint32_t i = 0; i < 37 * 23; i++) {
                 if (view->visibility[i] != (i % 37 < edge ? 0.0f : 1.0f))
-                    fail_msg("%s, %s, edge %u, pixel (%u, %u): %g", scales[k / 2], filters[k % 2], edge, i % 37, i / 37,
+                    fail_msg("%s, %s, edge %u, pixel (%u, %u): %g", scales[k / 3], filters[k % 3], edge, i % 37, i / 37,
                              view->visibility[i]);
             }
         }
@@ -128,10 +128,10 @@ static void test_filter_leaks_nothing_across_a_right_angle(void **state)
 {
     /* An edge towards the camera along the line x = 0, z = -2: two planes at 45 degrees. */
     const double half = sqrt(0.5), left[3] = { -half, 0, half }, right[3] = { half, 0, half };
-    for (size_t k = 0; k < 6; k++) {
+    for (size_t k = 0; k < 9; k++) {
         ao_view *view = start(state, 37, 23);
-        ao_view_param(view, "ao.scale", scales[k / 2]);
-        ao_view_param(view, "ao.filter", filters[k % 2]);
+        ao_view_param(view, "ao.scale", scales[k / 3]);
+        ao_view_param(view, "ao.filter", filters[k % 3]);
         for (uint32_t i = 0; i < 37 * 23; i++) {
             double ray[3];
             ao_view_position(view, i % 37, i / 37, 1.0, ray);
@@ -144,7 +144,7 @@ static void test_filter_leaks_nothing_across_a_right_angle(void **state)
             double ray[3];
             ao_view_position(view, i % 37, i / 37, 1.0, ray);
             if (view->visibility[i] != (ray[0] < 0.0 ? 0.0f : 1.0f))
-                fail_msg("%s, %s, pixel (%u, %u): %g", scales[k / 2], filters[k % 2], i % 37, i / 37,
+                fail_msg("%s, %s, pixel (%u, %u): %g", scales[k / 3], filters[k % 3], i % 37, i / 37,
                          view->visibility[i]);
         }
     }
@@ -197,9 +197,9 @@ static void test_filter_of_a_ramp_stays_near_it_at_every_scale(void **state)
         ao_view_set_pixel(view, i % 96, i / 96, -2.0 * n[2] / (n[0] * ray[0] - n[2]), n);
     }
     view->paint = paint_ramp;
-    for (int k = 0; k < 3; k++) {
-        ao_view_param(view, "ao.scale", scales[k]);
-        ao_view_param(view, "ao.filter", "disc");
+    for (int k = 0; k < 6; k++) {
+        ao_view_param(view, "ao.scale", scales[k / 2]);
+        ao_view_param(view, "ao.filter", filters[1 + k % 2]);
         ao_view_record(view, "probe");
         double worst = 0.0;
         for (uint32_t i = 0; i < 96 * 48; i++) {
@@ -208,8 +208,8 @@ static void test_filter_of_a_ramp_stays_near_it_at_every_scale(void **state)
                 worst = fmax(worst, fabs(view->visibility[i] - x / 96.0) * 96.0);
         }
         /* Samples are whole pixels of the trace: off by half of one at the most, and a little by their uneven number. */
-        if (worst > 0.6 * (1 << k))
-            fail_msg("%s: the ramp is off by %.3f pixels", scales[k], worst);
+        if (worst > 0.6 * (1 << k / 2))
+            fail_msg("%s, %s: the ramp is off by %.3f pixels", scales[k / 2], filters[1 + k % 2], worst);
     }
 }
 
@@ -236,12 +236,12 @@ static void draw_absurdities(ao_view *view)
 /* ao_view_record holds every pixel to [0, 1], which NaN is not. */
 static void test_filter_never_writes_nan_whatever_the_buffers_hold(void **state)
 {
-    for (size_t k = 0; k < 12; k++) {
+    for (size_t k = 0; k < 18; k++) {
         ao_view *view = start(state, 37, 23);
-        ao_view_param(view, "ao.scale", scales[k % 6 / 2]);
-        ao_view_param(view, "ao.filter", filters[k % 2]);
+        ao_view_param(view, "ao.scale", scales[k % 9 / 3]);
+        ao_view_param(view, "ao.filter", filters[k % 3]);
         draw_absurdities(view);
-        view->without_normals = k >= 6;
+        view->without_normals = k >= 9;
         view->paint = paint_random;
         ao_view_record(view, "probe");
         view->without_normals = 0;
