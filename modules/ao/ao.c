@@ -179,8 +179,8 @@ nook_result nook_ao_submit_occluders(nook_ao *ao, const nook_ao_occluder *occlud
     for (uint32_t i = 0; i < count; i++) {
         uint32_t volume = occluders[i].volume.id, mesh = occluders[i].mesh.id;
         if ((volume && !volume_atlas_find(&ao->atlas, volume)) || (mesh && !ao_mesh_exists(ao, mesh)))
-            return nook_fail(NOOK_E_ARG, "occluder %u of %u: its volume %u or mesh %u has been removed", i, count, volume,
-                             mesh);
+            return nook_fail(NOOK_E_ARG, "occluder %u of %u: its volume %u or mesh %u has been removed", i, count,
+                             volume, mesh);
     }
     if (count)
         memcpy(ao->occluders, occluders, count * sizeof *occluders);

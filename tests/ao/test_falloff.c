@@ -65,7 +65,8 @@ static void test_falloff_has_the_values_of_its_formulas(void **state)
 }
 
 /** The shader's values at `distances`, all falling with r_max and one choice. */
-static void evaluate_on_gpu(nook_gpu *gpu, int falloff, float r_max, const float *distances, float *values, size_t count)
+static void evaluate_on_gpu(nook_gpu *gpu, int falloff, float r_max, const float *distances, float *values,
+                            size_t count)
 {
     nook_program program;
     nook_buffer frame, in, out;

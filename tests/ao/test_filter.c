@@ -222,12 +222,12 @@ static float paint_random(const ao_view *view, uint32_t x, uint32_t y)
 
 static void draw_absurdities(ao_view *view)
 {
-    static const float depths[] = { 0.0f,   -0.0f, 1.0f,      2.0f,      1e10f, 1e30f, 1e36f, 3e38f,
-                                    1e-30f, -1.0f, INFINITY, -INFINITY, NAN,   1e-40f };
+    static const float depths[] = { 0.0f,  -0.0f,  1.0f,  2.0f,     1e10f,     1e30f, 1e36f,
+                                    3e38f, 1e-30f, -1.0f, INFINITY, -INFINITY, NAN,   1e-40f };
     uint32_t seed = 7;
     for (uint32_t i = 0; i < view->width * view->height; i++) {
-        view->device_depth[i] = random_bits(&seed) % 3 ? depths[random_bits(&seed) % NOOK_COUNT(depths)]
-                                                       : (float)random_unit(&seed);
+        view->device_depth[i] =
+            random_bits(&seed) % 3 ? depths[random_bits(&seed) % NOOK_COUNT(depths)] : (float)random_unit(&seed);
         for (int k = 0; k < 2; k++)
             view->normals[i][k] = (uint16_t)random_bits(&seed);
     }

@@ -1,6 +1,6 @@
 /* Ray directions: cosine weighted, and every block and all blocks together evenly spread. */
-#include "modules/ao/sampling.h"
 #include "engine/core/result.h"
+#include "modules/ao/sampling.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -25,7 +25,8 @@ static void expect_one_point_in_every_elementary_box(uint32_t first, uint32_t m,
             float point[2];
             nook_sobol_point(first + i, seed, point);
             assert_true(point[0] > 0.0f && point[0] < 1.0f && point[1] > 0.0f && point[1] < 1.0f);
-            uint32_t column = (uint32_t)(point[0] * (float)(1u << a)), row = (uint32_t)(point[1] * (float)(1u << (m - a)));
+            uint32_t column = (uint32_t)(point[0] * (float)(1u << a)),
+                     row = (uint32_t)(point[1] * (float)(1u << (m - a)));
             hits[(row << a) + column]++;
         }
         for (uint32_t i = 0; i < count; i++) {
@@ -102,7 +103,7 @@ static void test_sampling_of_each_block_integrates_the_cosine_hemisphere(void **
                 z += (double)d[2] / RAYS;
                 x2 += (double)d[0] * d[0] / RAYS;
                 xy += (double)d[0] * d[1] / RAYS;
-                cap += d[2] > 0.8f ? 1.0 / RAYS : 0.0;          /* a disc overhead: sin^2 of its angle */
+                cap += d[2] > 0.8f ? 1.0 / RAYS : 0.0;         /* a disc overhead: sin^2 of its angle */
                 wall += d[0] > 0.5f * d[2] ? 1.0 / RAYS : 0.0; /* a half-plane over p: (1 - e / sqrt(e^2 + H^2)) / 2 */
             }
             assert_true(fabs(z - 2.0 / 3.0) < 1e-3);

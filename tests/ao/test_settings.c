@@ -32,16 +32,16 @@ static nook_ao *context(void **state)
 }
 
 /** Runs a call that must fail with `code`, log one line and say `message` in it. */
-#define EXPECT_REFUSED(call, code, message)                                                   \
-    do {                                                                                      \
-        nook_log_capture line;                                                                \
-        nook_log_capture_begin(&line);                                                        \
-        nook_result refused = (call);                                                         \
-        nook_log_capture_end();                                                               \
-        assert_int_equal(refused, code);                                                      \
-        assert_int_equal(line.count, 1);                                                      \
-        if (!strstr(line.text, message))                                                      \
-            fail_msg("expected '%s' in: %s", (message), line.text);                           \
+#define EXPECT_REFUSED(call, code, message)                         \
+    do {                                                            \
+        nook_log_capture line;                                      \
+        nook_log_capture_begin(&line);                              \
+        nook_result refused = (call);                               \
+        nook_log_capture_end();                                     \
+        assert_int_equal(refused, code);                            \
+        assert_int_equal(line.count, 1);                            \
+        if (!strstr(line.text, message))                            \
+            fail_msg("expected '%s' in: %s", (message), line.text); \
     } while (0)
 
 static double value_of(nook_ao *ao, const char *name)
@@ -76,11 +76,11 @@ static void test_settings_keep_the_old_value_when_the_new_one_is_out_of_range(vo
     static const struct {
         const char *name;
         double bad;
-    } cases[] = { { "ao.r_max", 0.0 },        { "ao.r_max", -1.0 },       { "ao.r_max", 1e10 },
-                  { "ao.r_max", NAN },        { "ao.r_max", INFINITY },   { "volume.rays", 0.0 },
-                  { "volume.rays", 4097.0 },  { "volume.rays", 7.5 },     { "ao.falloff", 5.0 },
-                  { "ao.falloff", -1.0 },     { "ao.falloff", 0.5 },      { "ao.scale", 3.0 },
-                  { "reference.rays", 0.0 },  { "volume.threshold", 1.0 }, { "ao.count", 2.0 } };
+    } cases[] = { { "ao.r_max", 0.0 },       { "ao.r_max", -1.0 },        { "ao.r_max", 1e10 },
+                  { "ao.r_max", NAN },       { "ao.r_max", INFINITY },    { "volume.rays", 0.0 },
+                  { "volume.rays", 4097.0 }, { "volume.rays", 7.5 },      { "ao.falloff", 5.0 },
+                  { "ao.falloff", -1.0 },    { "ao.falloff", 0.5 },       { "ao.scale", 3.0 },
+                  { "reference.rays", 0.0 }, { "volume.threshold", 1.0 }, { "ao.count", 2.0 } };
     nook_ao *ao = context(state);
     for (size_t i = 0; i < NOOK_COUNT(cases); i++) {
         double before = value_of(ao, cases[i].name);

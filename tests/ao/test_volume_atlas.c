@@ -45,7 +45,8 @@ static int overlap(const atlas_box *a, const atlas_box *b)
 {
     int all = 1;
     for (int axis = 0; axis < 3; axis++)
-        all = all && a->origin[axis] < b->origin[axis] + b->size[axis] && b->origin[axis] < a->origin[axis] + a->size[axis];
+        all = all && a->origin[axis] < b->origin[axis] + b->size[axis] &&
+              b->origin[axis] < a->origin[axis] + a->size[axis];
     return all;
 }
 
