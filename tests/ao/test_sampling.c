@@ -122,8 +122,8 @@ static void test_sampling_maps_the_square_onto_the_hemisphere_by_area(void **sta
     const float point[2] = { 0.36f, 0.25f };
     float d[3];
     nook_cosine_direction(point, d);
-    assert_true(fabs(d[0]) < 1e-6 && fabs(d[1] - 0.6) < 1e-6 && fabs(d[2] - 0.8) < 1e-6);
-    assert_true(fabs(atan2(d[1], d[0]) - 0.5 * pi) < 1e-6);
+    assert_true(fabs((double)d[0]) < 1e-6 && fabs(d[1] - 0.6) < 1e-6 && fabs(d[2] - 0.8) < 1e-6);
+    assert_true(fabs(atan2((double)d[1], (double)d[0]) - 0.5 * pi) < 1e-6);
 }
 
 int main(void)

@@ -106,7 +106,7 @@ static void test_volume_is_the_same_wherever_world_and_camera_are_moved(void **s
         ao_view_record(view, "volume");
         for (uint32_t i = 0; i < SIDE * SIDE; i++) {
             mean += (1.0 - before[i]) / (SIDE * SIDE);
-            worst = fmax(worst, fabs(view->visibility[i] - before[i]));
+            worst = fmax(worst, fabs((double)view->visibility[i] - before[i]));
         }
         ao_view_drop_occluders(view);
         assert_true(mean > 0.03); /* there is something to compare */
