@@ -1,5 +1,7 @@
 #include "game/volumes.h"
 #include "engine/core/log.h"
+#include "engine/core/vector.h"
+#include <cglm/cglm.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -116,15 +118,16 @@ uint32_t nook_volumes_body_resolution(double longest, double r_max, uint32_t res
 
 static double longest_side(const nook_scene_volume *volume)
 {
-    double low[3] = { INFINITY, INFINITY, INFINITY }, high[3] = { -INFINITY, -INFINITY, -INFINITY }, longest = 0.0;
-    for (size_t i = 0; i < volume->index_count; i++)
-        for (int axis = 0; axis < 3; axis++) {
-            double at = volume->positions[(size_t)volume->indices[i] * 3 + (size_t)axis];
-            low[axis] = fmin(low[axis], at);
-            high[axis] = fmax(high[axis], at);
-        }
+    vec3 box[2];
+    double longest = 0.0;
+    glm_aabb_invalidate(box);
+    for (size_t i = 0; i < volume->index_count; i++) {
+        float *position = volume->positions + (size_t)volume->indices[i] * 3;
+        glm_vec3_minv(box[0], position, box[0]);
+        glm_vec3_maxv(box[1], position, box[1]);
+    }
     for (int axis = 0; axis < 3; axis++)
-        longest = fmax(longest, high[axis] - low[axis]);
+        longest = fmax(longest, (double)box[1][axis] - box[0][axis]);
     return longest;
 }
 
@@ -132,10 +135,8 @@ static double longest_side(const nook_scene_volume *volume)
 static double largest_scale(const nook_matrix *matrix)
 {
     double largest = 0.0;
-    for (int column = 0; column < 3; column++) {
-        const double *c = matrix->m + column * 4;
-        largest = fmax(largest, sqrt(c[0] * c[0] + c[1] * c[1] + c[2] * c[2]));
-    }
+    for (int column = 0; column < 3; column++)
+        largest = fmax(largest, nook_vector_length(matrix->m + column * 4));
     return largest;
 }
 

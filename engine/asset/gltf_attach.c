@@ -1,38 +1,25 @@
 /* Cameras and lights: they sit on nodes, and only the place and the direction of those matter to them. */
 #include "engine/asset/gltf_internal.h"
 #include "engine/asset/scene_internal.h"
+#include "engine/core/vector.h"
 #include <math.h>
 #include <string.h>
 
 static const double pi = 3.14159265358979323846;
 
-static bool normalize(double v[3])
-{
-    double length = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-    if (!(length > 1e-30) || !isfinite(length))
-        return false;
-    for (int k = 0; k < 3; k++)
-        v[k] /= length;
-    return true;
-}
-
 /* The same place and view direction without scale, shear and mirroring; axis-aligned when there is no direction. */
 static nook_matrix without_scale(const nook_matrix *m)
 {
     nook_matrix out = nook_matrix_translation(m->m[12], m->m[13], m->m[14]);
-    double z[3] = { m->m[8], m->m[9], m->m[10] }, y[3] = { m->m[4], m->m[5], m->m[6] };
-    if (!normalize(z))
+    double y[3], z[3];
+    if (!nook_vector_normalize(m->m + 8, z))
         return out;
-    double along = y[0] * z[0] + y[1] * z[1] + y[2] * z[2];
-    for (int k = 0; k < 3; k++)
-        y[k] -= along * z[k];
-    if (!normalize(y))
+    nook_vector_add_scaled(m->m + 4, -nook_vector_dot(m->m + 4, z), z, y);
+    if (!nook_vector_normalize(y, y))
         return out;
-    for (int k = 0; k < 3; k++) {
-        out.m[k] = y[(k + 1) % 3] * z[(k + 2) % 3] - y[(k + 2) % 3] * z[(k + 1) % 3];
-        out.m[4 + k] = y[k];
-        out.m[8 + k] = z[k];
-    }
+    nook_vector_cross(y, z, out.m);
+    memcpy(out.m + 4, y, sizeof y);
+    memcpy(out.m + 8, z, sizeof z);
     return out;
 }
 

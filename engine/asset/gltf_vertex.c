@@ -1,5 +1,6 @@
 #include "engine/asset/gltf_vertex_internal.h"
 #include "engine/asset/scene_internal.h"
+#include <cglm/cglm.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -73,20 +74,21 @@ static nook_result check_positions(nook_gltf *gltf, const nook_gltf_primitive *f
                                    const nook_vertex *vertices, uint32_t count)
 {
     const nook_gltf_accessor *a = &gltf->model->accessors[from->position];
-    double low[3] = { INFINITY, INFINITY, INFINITY }, high[3] = { -INFINITY, -INFINITY, -INFINITY };
-    for (uint32_t i = 0; i < count; i++)
-        for (int k = 0; k < 3; k++) {
-            double x = (double)vertices[i].position[k];
-            if (!isfinite(x))
-                return nook_fail(NOOK_E_FORMAT, "%s: %s: the position of vertex %u is not finite", gltf->path, place,
-                                 i);
-            low[k] = fmin(low[k], x);
-            high[k] = fmax(high[k], x);
-        }
+    vec3 box[2];
+    glm_aabb_invalidate(box);
+    for (uint32_t i = 0; i < count; i++) {
+        vec3 position;
+        memcpy(position, vertices[i].position, sizeof position);
+        if (!glm_vec3_isvalid(position))
+            return nook_fail(NOOK_E_FORMAT, "%s: %s: the position of vertex %u is not finite", gltf->path, place, i);
+        glm_vec3_minv(box[0], position, box[0]);
+        glm_vec3_maxv(box[1], position, box[1]);
+    }
     bool lies = false;
     for (int k = 0; a->has_bounds && a->component_type == FLOAT && k < 3; k++) {
-        double allowed = 1e-3 * (high[k] - low[k]) + 1e-5 * fmax(fabs(low[k]), fabs(high[k]));
-        lies = lies || !(fabs(a->min[k] - low[k]) <= allowed) || !(fabs(a->max[k] - high[k]) <= allowed);
+        double low = (double)box[0][k], high = (double)box[1][k];
+        double allowed = 1e-3 * (high - low) + 1e-5 * fmax(fabs(low), fabs(high));
+        lies = lies || !(fabs(a->min[k] - low) <= allowed) || !(fabs(a->max[k] - high) <= allowed);
     }
     if (lies)
         nook_scene_warn(gltf->scene, "%s: %s: the min and max of POSITION are wrong; not used", gltf->path, place);
@@ -163,9 +165,10 @@ static nook_result unshare(nook_gltf *gltf, nook_primitive *to)
 static bool tangents_are_good(const nook_vertex *vertices, uint32_t count)
 {
     for (uint32_t i = 0; i < count; i++) {
-        const float *t = vertices[i].tangent;
-        float square = t[0] * t[0] + t[1] * t[1] + t[2] * t[2];
-        if (!(square > 0.5f && square < 2.0f) || fabsf(t[3]) != 1.0f)
+        vec3 tangent;
+        memcpy(tangent, vertices[i].tangent, sizeof tangent);
+        float square = glm_vec3_norm2(tangent);
+        if (!(square > 0.5f && square < 2.0f) || fabsf(vertices[i].tangent[3]) != 1.0f)
             return false;
     }
     return true;

@@ -1,6 +1,8 @@
 #include "engine/asset/scene.h"
 #include "engine/asset/image.h"
 #include "engine/asset/scene_internal.h"
+#include "engine/core/vector.h"
+#include <cglm/cglm.h>
 #include <float.h>
 #include <math.h>
 #include <stdarg.h>
@@ -68,19 +70,18 @@ void nook_scene_default_material(nook_material *out_material)
 
 static void find_mesh_bounds(const nook_scene *scene, nook_mesh *mesh)
 {
-    for (int k = 0; k < 3; k++) {
-        mesh->bounds_min[k] = FLT_MAX;
-        mesh->bounds_max[k] = -FLT_MAX;
-    }
+    vec3 box[2];
+    glm_aabb_invalidate(box);
     for (uint32_t p = 0; p < mesh->primitive_count; p++) {
         const nook_primitive *primitive = &scene->primitives[mesh->first_primitive + p];
-        const nook_vertex *vertices = scene->vertices + primitive->first_vertex;
-        for (uint32_t v = 0; v < primitive->vertex_count; v++)
-            for (int k = 0; k < 3; k++) {
-                mesh->bounds_min[k] = fminf(mesh->bounds_min[k], vertices[v].position[k]);
-                mesh->bounds_max[k] = fmaxf(mesh->bounds_max[k], vertices[v].position[k]);
-            }
+        nook_vertex *vertices = scene->vertices + primitive->first_vertex;
+        for (uint32_t v = 0; v < primitive->vertex_count; v++) {
+            glm_vec3_minv(box[0], vertices[v].position, box[0]);
+            glm_vec3_maxv(box[1], vertices[v].position, box[1]);
+        }
     }
+    glm_vec3_copy(box[0], mesh->bounds_min);
+    glm_vec3_copy(box[1], mesh->bounds_max);
 }
 
 static void grow_bounds(nook_scene *scene, const nook_node *node, const nook_primitive *primitive)
@@ -121,14 +122,12 @@ static bool has_area(const nook_scene *scene, const nook_primitive *primitive)
     const nook_vertex *v = scene->vertices + primitive->first_vertex;
     const uint32_t *index = scene->indices + primitive->first_index;
     for (uint32_t i = 0; i + 2 < primitive->index_count; i += 3) {
-        double e[2][3];
-        for (int k = 0; k < 3; k++) {
-            e[0][k] = (double)v[index[i + 1]].position[k] - (double)v[index[i]].position[k];
-            e[1][k] = (double)v[index[i + 2]].position[k] - (double)v[index[i]].position[k];
-        }
-        for (int k = 0; k < 3; k++)
-            if (e[0][k] * e[1][(k + 1) % 3] != e[0][(k + 1) % 3] * e[1][k])
-                return true;
+        double ab[3], ac[3], normal[3];
+        nook_vector_between(v[index[i]].position, v[index[i + 1]].position, ab);
+        nook_vector_between(v[index[i]].position, v[index[i + 2]].position, ac);
+        nook_vector_cross(ab, ac, normal);
+        if (normal[0] != 0.0 || normal[1] != 0.0 || normal[2] != 0.0)
+            return true;
     }
     return false;
 }

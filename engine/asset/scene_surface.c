@@ -1,39 +1,9 @@
 /* Normals and tangents that a file lacks. Computed in double: a dragon's triangles are 1e-4 m wide, their areas 1e-8. */
 #include "engine/asset/scene_internal.h"
+#include "engine/core/vector.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-static void subtract(const float a[3], const float b[3], double out[3])
-{
-    for (int k = 0; k < 3; k++)
-        out[k] = (double)a[k] - (double)b[k];
-}
-
-static void cross(const double a[3], const double b[3], double out[3])
-{
-    out[0] = a[1] * b[2] - a[2] * b[1];
-    out[1] = a[2] * b[0] - a[0] * b[2];
-    out[2] = a[0] * b[1] - a[1] * b[0];
-}
-
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-/* @return false when v has no direction; out is untouched then */
-static bool normalize(const double v[3], double out[3])
-{
-    double scale = fmax(fabs(v[0]), fmax(fabs(v[1]), fabs(v[2])));
-    if (!(scale > 0.0) || !isfinite(scale))
-        return false;
-    double scaled[3] = { v[0] / scale, v[1] / scale, v[2] / scale }; /* squares of tiny areas would vanish */
-    double length = sqrt(dot(scaled, scaled));
-    for (int k = 0; k < 3; k++)
-        out[k] = scaled[k] / length;
-    return true;
-}
 
 static void store(const double v[3], float out[3])
 {
@@ -45,9 +15,9 @@ static void store(const double v[3], float out[3])
 static void face_normal(const nook_vertex *a, const nook_vertex *b, const nook_vertex *c, double out[3])
 {
     double ab[3], ac[3];
-    subtract(b->position, a->position, ab);
-    subtract(c->position, a->position, ac);
-    cross(ab, ac, out);
+    nook_vector_between(a->position, b->position, ab);
+    nook_vector_between(a->position, c->position, ac);
+    nook_vector_cross(ab, ac, out);
 }
 
 void nook_scene_make_flat_normals(nook_vertex *vertices, uint32_t vertex_count)
@@ -55,7 +25,7 @@ void nook_scene_make_flat_normals(nook_vertex *vertices, uint32_t vertex_count)
     for (uint32_t i = 0; i + 2 < vertex_count; i += 3) {
         double normal[3], unit[3] = { 0.0, 1.0, 0.0 }; /* a degenerate triangle shows no side */
         face_normal(&vertices[i], &vertices[i + 1], &vertices[i + 2], normal);
-        normalize(normal, unit);
+        nook_vector_normalize(normal, unit);
         for (uint32_t k = 0; k < 3; k++)
             store(unit, vertices[i + k].normal);
     }
@@ -68,7 +38,7 @@ static uint32_t mark_broken(nook_vertex *vertices, uint32_t vertex_count)
     for (uint32_t i = 0; i < vertex_count; i++) {
         float *n = vertices[i].normal;
         double normal[3] = { (double)n[0], (double)n[1], (double)n[2] }, unit[3] = { 0.0 };
-        bool good = isfinite(n[0]) && isfinite(n[1]) && isfinite(n[2]) && normalize(normal, unit);
+        bool good = isfinite(n[0]) && isfinite(n[1]) && isfinite(n[2]) && nook_vector_normalize(normal, unit);
         store(unit, n);
         broken += !good;
     }
@@ -97,7 +67,7 @@ uint32_t nook_scene_repair_normals(nook_vertex *vertices, uint32_t vertex_count,
         if (!is_zero(vertices[i].normal))
             continue;
         if (sums)
-            normalize(sums[i], unit);
+            nook_vector_normalize(sums[i], unit);
         store(unit, vertices[i].normal);
     }
     free(sums);
@@ -109,8 +79,8 @@ static void add_directions(const nook_vertex *vertices, const uint32_t corner[3]
 {
     const nook_vertex *a = &vertices[corner[0]], *b = &vertices[corner[1]], *c = &vertices[corner[2]];
     double ab[3], ac[3];
-    subtract(b->position, a->position, ab);
-    subtract(c->position, a->position, ac);
+    nook_vector_between(a->position, b->position, ab);
+    nook_vector_between(a->position, c->position, ac);
     double u1 = (double)b->uv[0] - (double)a->uv[0], v1 = (double)b->uv[1] - (double)a->uv[1];
     double u2 = (double)c->uv[0] - (double)a->uv[0], v2 = (double)c->uv[1] - (double)a->uv[1];
     double side = u1 * v2 - u2 * v1 < 0.0 ? -1.0 : 1.0; /* weight by area in space, not by 1 / area in the texture */
@@ -129,15 +99,13 @@ static void make_tangent(nook_vertex *vertex, double sums[2][3])
     double axis[3] = { fabs(n[0]) < 0.5 ? 1.0 : 0.0, fabs(n[0]) < 0.5 ? 0.0 : 1.0, 0.0 };
     double tangent[3], bitangent[3], *from = sums[0];
     for (int attempt = 0; attempt < 2; attempt++, from = axis) {
-        double along = dot(from, n);
-        for (int k = 0; k < 3; k++)
-            tangent[k] = from[k] - along * n[k];
-        if (normalize(tangent, tangent))
+        nook_vector_add_scaled(from, -nook_vector_dot(from, n), n, tangent);
+        if (nook_vector_normalize(tangent, tangent))
             break;
     }
-    cross(n, tangent, bitangent);
+    nook_vector_cross(n, tangent, bitangent);
     store(tangent, vertex->tangent);
-    vertex->tangent[3] = dot(bitangent, sums[1]) < 0.0 ? -1.0f : 1.0f;
+    vertex->tangent[3] = nook_vector_dot(bitangent, sums[1]) < 0.0 ? -1.0f : 1.0f;
 }
 
 void nook_scene_make_tangents(nook_vertex *vertices, uint32_t vertex_count, const uint32_t *indices,

@@ -1,4 +1,5 @@
 #include "engine/core/matrix.h"
+#include "engine/core/vector.h"
 #include <math.h>
 
 nook_matrix nook_matrix_identity(void)
@@ -123,27 +124,14 @@ void nook_matrix_apply_vector(const nook_matrix *a, const double v[3], double ou
     apply(a, v, 0.0, out);
 }
 
-static void cross(const double a[3], const double b[3], double out[3])
-{
-    out[0] = a[1] * b[2] - a[2] * b[1];
-    out[1] = a[2] * b[0] - a[0] * b[2];
-    out[2] = a[0] * b[1] - a[1] * b[0];
-}
-
-static void normalize(double v[3])
-{
-    double length = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-    for (int i = 0; i < 3; i++)
-        v[i] /= length;
-}
-
 nook_matrix nook_matrix_look_at(const double eye[3], const double target[3], const double up[3])
 {
-    double back[3] = { eye[0] - target[0], eye[1] - target[1], eye[2] - target[2] }, right[3], above[3];
-    normalize(back);
-    cross(up, back, right);
-    normalize(right);
-    cross(back, right, above);
+    double back[3], right[3], above[3];
+    nook_vector_add_scaled(eye, -1.0, target, back);
+    nook_vector_normalize(back, back);
+    nook_vector_cross(up, back, right);
+    nook_vector_normalize(right, right);
+    nook_vector_cross(back, right, above);
     nook_matrix view = nook_matrix_identity();
     for (int i = 0; i < 3; i++) {
         view.m[i * 4 + 0] = right[i];

@@ -1,5 +1,6 @@
 #include "engine/core/log.h"
 #include "engine/render/internal.h"
+#include <cglm/cglm.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,40 +18,57 @@ bool nook_grow(grow_list *list, size_t size)
     return true;
 }
 
-/** Corner i of a mesh's box. */
-static void box_corner(const nook_mesh *mesh, int i, double out[3])
+static void to_cglm(const nook_matrix *a, mat4 out)
 {
-    for (int k = 0; k < 3; k++)
-        out[k] = (i >> k & 1) ? mesh->bounds_max[k] : mesh->bounds_min[k];
+    for (int column = 0; column < 4; column++) {
+        for (int row = 0; row < 4; row++)
+            out[column][row] = (float)a->m[column * 4 + row];
+    }
 }
 
-/** Whether a box reaches into the frustum, and between which distances it lies. Boxes near its edges may pass. */
+/**
+ * Moves frustum planes outwards by more than their rounding can be, so that it takes nothing out of the picture: that of
+ * the planes grows with their distance from the mesh's origin, that of the box's corners with theirs.
+ */
+static void loosen(vec4 planes[6], vec3 box[2])
+{
+    float reach = fmaxf(glm_vec3_norm_inf(box[0]), glm_vec3_norm_inf(box[1]));
+    for (int i = 0; i < 6; i++)
+        planes[i][3] += 1e-6f * (fabsf(planes[i][3]) + reach);
+}
+
+/**
+ * Whether a box reaches into the frustum, and between which distances it lies. Boxes near its edges may pass.
+ *
+ * In float, like what the GPU then does with the same matrix: the large numbers have cancelled in view_from_mesh. Planes are
+ * taken to the mesh, where the box is upright. Clip space is cglm's but for its depth: of the two planes that it takes from
+ * z, w - z is our near plane at any projection with reversed z, and w + z lies behind it.
+ */
 static bool box_in_view(const nook_mesh *mesh, const nook_matrix *view_from_mesh, const batch_view *view, double *near,
                         double *far)
 {
-    int outside[5] = { 0 };
-    *near = INFINITY, *far = -INFINITY;
-    for (int i = 0; i < 8; i++) {
-        double p[3];
-        box_corner(mesh, i, p);
-        nook_matrix_apply_point(view_from_mesh, p, p);
-        double distance = -p[2];
-        outside[0] += distance < view->z_near;
-        outside[1] += p[0] > distance * view->ray_scale[0];
-        outside[2] += -p[0] > distance * view->ray_scale[0];
-        outside[3] += p[1] > distance * view->ray_scale[1];
-        outside[4] += -p[1] > distance * view->ray_scale[1];
-        *near = fmin(*near, distance);
-        *far = fmax(*far, distance);
-    }
-    for (int i = 0; i < 5; i++) {
-        if (outside[i] == 8)
-            return false;
-    }
+    mat4 from_mesh, clip_from_view, clip_from_mesh;
+    vec4 planes[6];
+    vec3 box[2], box_view[2];
+    memcpy(box[0], mesh->bounds_min, sizeof box[0]);
+    memcpy(box[1], mesh->bounds_max, sizeof box[1]);
+    to_cglm(view_from_mesh, from_mesh);
+    to_cglm(&view->clip_from_view, clip_from_view);
+    glm_mat4_mul(clip_from_view, from_mesh, clip_from_mesh);
+    glm_frustum_planes(clip_from_mesh, planes);
+    loosen(planes, box);
+    if (!glm_aabb_frustum(box, planes))
+        return false;
+    glm_aabb_transform(box, from_mesh, box_view);
+    *near = -(double)box_view[1][2];
+    *far = -(double)box_view[0][2];
     return true;
 }
 
-/** The transpose of the inverse, scaled so that it fits a float at any scale of the mesh. */
+/**
+ * The transpose of the inverse, scaled so that it fits a float at any scale of the mesh. Inverted in double: the determinant
+ * of a scale of 1e-16 is not a float, and a mesh 1e5 times flatter than wide would lose 5 of a float's 7 digits.
+ */
 static bool normal_matrix(const nook_matrix *world_from_mesh, float out[3][4])
 {
     nook_matrix inverse;

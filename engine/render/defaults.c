@@ -1,5 +1,6 @@
 /* Cameras and lights for scenes that name none, and those of scenes that do. */
 #include "engine/core/log.h"
+#include "engine/core/vector.h"
 #include "engine/render/internal.h"
 #include <math.h>
 
@@ -44,7 +45,7 @@ static nook_point_light point_from(const nook_light *light)
 {
     nook_point_light point = { .range = light->range };
     const double *m = light->world_from_light.m;
-    double length = sqrt(m[8] * m[8] + m[9] * m[9] + m[10] * m[10]);
+    double length = nook_vector_length(m + 8);
     for (int i = 0; i < 3; i++) {
         point.position[i] = m[12 + i];
         point.colour[i] = light->colour[i] * light->intensity;
@@ -162,7 +163,7 @@ nook_camera nook_camera_frame(const double bounds_min[3], const double bounds_ma
         centre[i] = 0.5 * (bounds_min[i] + bounds_max[i]);
         half[i] = 0.5 * (bounds_max[i] - bounds_min[i]);
     }
-    double size = sqrt(half[0] * half[0] + half[1] * half[1] + half[2] * half[2]);
+    double size = nook_vector_length(half);
     if (size == 0.0) /* a point */
         size = half[0] = half[1] = half[2] = 0.5;
     const double tangent = margin * tan(0.5 * fov_y);

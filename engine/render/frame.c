@@ -30,11 +30,10 @@ static nook_result check(const nook_frame *frame)
 /** Which draws the camera sees, as instances, and those of them that blend. */
 static nook_result collect_visible(nook_renderer *renderer, const nook_frame *frame)
 {
-    nook_matrix clip_from_view = nook_renderer_clip_from_view(renderer, &frame->camera);
     batch_view view = {
         .view_from_world = frame->camera.view_from_world,
         .cull = true,
-        .ray_scale = { 1.0 / clip_from_view.m[0], 1.0 / clip_from_view.m[5] },
+        .clip_from_view = nook_renderer_clip_from_view(renderer, &frame->camera),
         .z_near = frame->camera.z_near,
     };
     nook_result result = nook_batch(renderer->gpu, frame, &view, &renderer->visible);

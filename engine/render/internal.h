@@ -168,8 +168,8 @@ void nook_targets_destroy(nook_gpu *gpu, render_targets *targets);
 typedef struct batch_view {
     nook_matrix view_from_world; /* rigid */
     bool cull;                   /* leave out what lies outside the frustum */
-    double ray_scale[2];         /* of the frustum */
-    double z_near;
+    nook_matrix clip_from_view;  /* of the frustum; depth reversed. When it culls */
+    double z_near;               /* when it culls */
 } batch_view;
 /** Culls, groups by mesh and uploads. @return NOOK_E_MEMORY */
 nook_result nook_batch(nook_gpu *gpu, const nook_frame *frame, const batch_view *view, draw_set *set);

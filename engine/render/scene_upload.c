@@ -1,6 +1,8 @@
 #include "engine/core/clock.h"
 #include "engine/core/log.h"
+#include "engine/core/vector.h"
 #include "engine/render/internal.h"
+#include <cglm/cglm.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,15 +20,13 @@ enum { MATERIAL_UNLIT = 32 }; /* below it: 1 << UNIT_*_IMAGE */
 /** Unit normal of a triangle, 0 when it has no area. In double: edges of large meshes are small differences. */
 static void triangle_normal(const float *a, const float *b, const float *c, float out[3])
 {
-    double u[3], v[3], n[3];
+    double ab[3], ac[3], normal[3], unit[3] = { 0.0, 0.0, 0.0 };
+    nook_vector_between(a, b, ab);
+    nook_vector_between(a, c, ac);
+    nook_vector_cross(ab, ac, normal);
+    nook_vector_normalize(normal, unit);
     for (int i = 0; i < 3; i++)
-        u[i] = (double)b[i] - a[i], v[i] = (double)c[i] - a[i];
-    n[0] = u[1] * v[2] - u[2] * v[1];
-    n[1] = u[2] * v[0] - u[0] * v[2];
-    n[2] = u[0] * v[1] - u[1] * v[0];
-    double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-    for (int i = 0; i < 3; i++)
-        out[i] = length > 0.0 ? (float)(n[i] / length) : 0.0f;
+        out[i] = (float)unit[i];
 }
 
 static void primitive_normals(const nook_scene *scene, const nook_primitive *primitive, float *out)
@@ -40,16 +40,15 @@ static void primitive_normals(const nook_scene *scene, const nook_primitive *pri
 
 static void primitive_centre(const nook_scene *scene, const nook_primitive *primitive, float out[3])
 {
-    float low[3] = { INFINITY, INFINITY, INFINITY }, high[3] = { -INFINITY, -INFINITY, -INFINITY };
+    vec3 box[2];
+    glm_aabb_invalidate(box);
     for (uint32_t i = 0; i < primitive->vertex_count; i++) {
-        const float *position = scene->vertices[primitive->first_vertex + i].position;
-        for (int k = 0; k < 3; k++) {
-            low[k] = fminf(low[k], position[k]);
-            high[k] = fmaxf(high[k], position[k]);
-        }
+        float *position = scene->vertices[primitive->first_vertex + i].position;
+        glm_vec3_minv(box[0], position, box[0]);
+        glm_vec3_maxv(box[1], position, box[1]);
     }
-    for (int k = 0; k < 3; k++)
-        out[k] = primitive->vertex_count > 0 ? 0.5f * low[k] + 0.5f * high[k] : 0.0f;
+    glm_vec3_scale(box[0], 0.5f, out); /* halves first: their sum is a float at any size; without vertices it is 0 */
+    glm_vec3_muladds(box[1], 0.5f, out);
 }
 
 static nook_result upload(nook_render_scene *s, const void *data, size_t size, nook_buffer *out)

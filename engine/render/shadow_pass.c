@@ -1,9 +1,10 @@
 #include "engine/core/log.h"
+#include "engine/core/vector.h"
 #include "engine/render/internal.h"
 #include <math.h>
 #include <string.h>
 
-/** A box in the sun's axes: x, y across, z away from the sun. */
+/** A box in the sun's axes: x, y across, z away from the sun. In double: it is not relative to the camera, which moves. */
 typedef struct sun_box {
     double low[3], high[3];
 } sun_box;
@@ -42,7 +43,7 @@ static nook_matrix sun_axes(const nook_sun *sun)
 {
     const double *d = sun->direction;
     const double zero[3] = { 0, 0, 0 }, up[3] = { 0, 1, 0 }, side[3] = { 1, 0, 0 };
-    bool steep = fabs(d[1]) > 0.99 * sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    bool steep = fabs(d[1]) > 0.99 * nook_vector_length(d);
     nook_matrix view = nook_matrix_look_at(zero, d, steep ? side : up); /* looks along -z */
     nook_matrix flip = nook_matrix_scale(1.0, 1.0, -1.0);
     return nook_matrix_multiply(&flip, &view);

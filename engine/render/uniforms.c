@@ -1,3 +1,4 @@
+#include "engine/core/vector.h"
 #include "engine/render/internal.h"
 #include <assert.h>
 #include <math.h>
@@ -12,7 +13,7 @@ void nook_camera_position(const nook_camera *camera, double out[3])
 {
     const double *m = camera->view_from_world.m;
     for (int i = 0; i < 3; i++) /* rigid: the inverse rotation is the transpose */
-        out[i] = -(m[i * 4] * m[12] + m[i * 4 + 1] * m[13] + m[i * 4 + 2] * m[14]);
+        out[i] = -nook_vector_dot(m + i * 4, m + 12);
 }
 
 bool nook_sun_shines(const nook_sun *sun)
@@ -70,7 +71,7 @@ void nook_uniforms_lights(nook_renderer *renderer, const nook_frame *frame)
     memset(&block, 0, sizeof block);
     if (nook_sun_shines(&lights->sun)) {
         const double *d = lights->sun.direction;
-        double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+        double length = nook_vector_length(d);
         for (int i = 0; i < 3; i++)
             block.sun_direction[i] = (float)(-d[i] / length);
         block.sun_direction[3] = 1.0f;

@@ -1,22 +1,11 @@
 #include "game/compare/auto_camera.h"
+#include "engine/core/vector.h"
 #include "game/compare/camera.h"
 #include <math.h>
 
 enum { DIRECTIONS = 16, PROBES = 9, GRID = 7 };
 static const double backs_tolerated = 0.1;
 static const double pi = 3.14159265358979323846;
-
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void cross(const double a[3], const double b[3], double out[3])
-{
-    out[0] = a[1] * b[2] - a[2] * b[1];
-    out[1] = a[2] * b[0] - a[0] * b[2];
-    out[2] = a[0] * b[1] - a[1] * b[0];
-}
 
 /* Whether a ray meets a box nearer than `limit`. Axes that it does not move along give infinities of the right signs. */
 static bool meets_box(const float low[3], const float high[3], const double origin[3], const double direction[3],
@@ -36,18 +25,17 @@ static double meet_triangle(const float *const corners[3], const double origin[3
                             double *out_facing)
 {
     double u[3], v[3], from[3], p[3], q[3];
-    for (int i = 0; i < 3; i++) {
-        u[i] = (double)corners[1][i] - corners[0][i];
-        v[i] = (double)corners[2][i] - corners[0][i];
+    nook_vector_between(corners[0], corners[1], u);
+    nook_vector_between(corners[0], corners[2], v);
+    for (int i = 0; i < 3; i++)
         from[i] = origin[i] - corners[0][i];
-    }
-    cross(direction, v, p);
-    double determinant = dot(u, p); /* = -direction . normal */
+    nook_vector_cross(direction, v, p);
+    double determinant = nook_vector_dot(u, p); /* = -direction . normal */
     if (determinant == 0.0)
         return INFINITY;
-    cross(from, u, q);
-    double a = dot(from, p) / determinant, b = dot(direction, q) / determinant;
-    double distance = dot(v, q) / determinant;
+    nook_vector_cross(from, u, q);
+    double a = nook_vector_dot(from, p) / determinant, b = nook_vector_dot(direction, q) / determinant;
+    double distance = nook_vector_dot(v, q) / determinant;
     if (!(a >= 0.0 && b >= 0.0 && a + b <= 1.0 && distance > 0.0))
         return INFINITY;
     *out_facing = -determinant;
@@ -125,8 +113,7 @@ static nook_camera side_view(const nook_scene *scene, int side, const nook_camer
     int depth_axis = away[side][0] != 0.0 ? 0 : 2;
     double distance = half[depth_axis] + 1.04 * fmax(half[1], half[2 - depth_axis] / aspect) / tan_y;
     nook_camera camera = *like;
-    for (int i = 0; i < 3; i++)
-        eye[i] = centre[i] + distance * away[side][i];
+    nook_vector_add_scaled(centre, distance, away[side], eye);
     nook_camera_look(eye, centre, like->fov_y_radians, like->z_near, &camera);
     return camera;
 }
@@ -218,10 +205,8 @@ bool nook_camera_inside(const nook_scene *scene, const nook_camera *outside, noo
     double ahead[3], eye[3], target[3];
     level_direction(best, ahead);
     double back = 0.85 * free_run[(best + DIRECTIONS / 2) % DIRECTIONS];
-    for (int i = 0; i < 3; i++) {
-        eye[i] = centre[i] - back * ahead[i];
-        target[i] = centre[i] + 0.5 * free_run[best] * ahead[i];
-    }
+    nook_vector_add_scaled(centre, -back, ahead, eye);
+    nook_vector_add_scaled(centre, 0.5 * free_run[best], ahead, target);
     target[0] -= 0.06 * diagonal * ahead[2];
     target[2] += 0.06 * diagonal * ahead[0];
     return nook_camera_look(eye, target, 60.0 * pi / 180.0, outside->z_near, out_camera) == NOOK_OK;

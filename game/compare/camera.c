@@ -1,5 +1,6 @@
 #include "game/compare/camera.h"
 #include "engine/core/log.h"
+#include "engine/core/vector.h"
 #include "game/compare/auto_camera.h"
 #include <math.h>
 #include <stdio.h>
@@ -12,14 +13,12 @@ static const double near_fraction = 1e-4;
 
 double nook_scene_diagonal(const nook_scene *scene)
 {
-    double squared = 0.0;
-    for (int i = 0; i < 3; i++) {
-        double side = scene->bounds_max[i] - scene->bounds_min[i];
-        if (side < 0.0)
-            return 1.0;
-        squared += side * side;
-    }
-    return squared > 0.0 ? sqrt(squared) : 1.0;
+    double diagonal[3];
+    nook_vector_add_scaled(scene->bounds_max, -1.0, scene->bounds_min, diagonal);
+    if (diagonal[0] < 0.0 || diagonal[1] < 0.0 || diagonal[2] < 0.0)
+        return 1.0;
+    double length = nook_vector_length(diagonal);
+    return length > 0.0 ? length : 1.0;
 }
 
 const nook_scene_camera *nook_camera_at(const nook_scene *scene, uint32_t index)
@@ -34,14 +33,12 @@ const nook_scene_camera *nook_camera_at(const nook_scene *scene, uint32_t index)
 nook_result nook_camera_look(const double eye[3], const double target[3], double fov_y_radians, double z_near,
                              nook_camera *out_camera)
 {
-    double forward[3], length_squared = 0.0;
-    for (int i = 0; i < 3; i++) {
-        forward[i] = target[i] - eye[i];
-        length_squared += forward[i] * forward[i];
-    }
-    if (!(length_squared > 0.0) || !isfinite(length_squared))
+    double forward[3];
+    nook_vector_add_scaled(target, -1.0, eye, forward);
+    double length = nook_vector_length(forward);
+    if (!(length > 0.0) || !isfinite(length))
         return nook_fail(NOOK_E_RANGE, "camera: eye and target must be two points a finite distance apart");
-    double sideways = hypot(forward[0], forward[2]) / sqrt(length_squared);
+    double sideways = hypot(forward[0], forward[2]) / length;
     const double up[3] = { 0.0, sideways > 1e-6 ? 1.0 : 0.0, sideways > 1e-6 ? 0.0 : -1.0 };
     *out_camera = (nook_camera){ nook_matrix_look_at(eye, target, up), fov_y_radians, z_near };
     return NOOK_OK;

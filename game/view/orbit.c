@@ -1,4 +1,5 @@
 #include "game/view/orbit.h"
+#include "engine/core/vector.h"
 #include <math.h>
 
 static const double pitch_limit = 1.55; /* just short of straight up, where yaw would mean nothing */
@@ -22,17 +23,15 @@ nook_orbit nook_orbit_from_camera(const nook_camera *camera, const double centre
     nook_orbit orbit = { .fov_y_radians = camera->fov_y_radians, .z_near = camera->z_near };
     nook_matrix world_from_view;
     const double origin[3] = { 0.0, 0.0, 0.0 }, ahead[3] = { 0.0, 0.0, -1.0 };
-    double eye[3], forward[3], along = 0.0;
+    double eye[3], forward[3], towards[3];
     nook_matrix_inverse_affine(&camera->view_from_world, &world_from_view);
     nook_matrix_apply_point(&world_from_view, origin, eye);
     nook_matrix_apply_vector(&world_from_view, ahead, forward);
     orbit.pitch = clamp(asin(clamp(forward[1], -1.0, 1.0)), -pitch_limit, pitch_limit);
     orbit.yaw = atan2(-forward[0], -forward[2]);
-    for (int i = 0; i < 3; i++)
-        along += (centre[i] - eye[i]) * forward[i];
-    orbit.distance = clamp(along, shortest, longest);
-    for (int i = 0; i < 3; i++)
-        orbit.target[i] = eye[i] + orbit.distance * forward[i];
+    nook_vector_add_scaled(centre, -1.0, eye, towards);
+    orbit.distance = clamp(nook_vector_dot(towards, forward), shortest, longest);
+    nook_vector_add_scaled(eye, orbit.distance, forward, orbit.target);
     return orbit;
 }
 
@@ -40,8 +39,7 @@ nook_camera nook_orbit_camera(const nook_orbit *orbit)
 {
     double right[3], up[3], forward[3], eye[3];
     axes(orbit, right, up, forward);
-    for (int i = 0; i < 3; i++)
-        eye[i] = orbit->target[i] - orbit->distance * forward[i];
+    nook_vector_add_scaled(orbit->target, -orbit->distance, forward, eye);
     return (nook_camera){ nook_matrix_look_at(eye, orbit->target, up), orbit->fov_y_radians, orbit->z_near };
 }
 
@@ -55,8 +53,8 @@ void nook_orbit_pan(nook_orbit *orbit, double right, double up)
 {
     double x[3], y[3], forward[3];
     axes(orbit, x, y, forward);
-    for (int i = 0; i < 3; i++)
-        orbit->target[i] += right * x[i] + up * y[i];
+    nook_vector_add_scaled(orbit->target, right, x, orbit->target);
+    nook_vector_add_scaled(orbit->target, up, y, orbit->target);
 }
 
 void nook_orbit_zoom(nook_orbit *orbit, double steps)
@@ -68,7 +66,7 @@ void nook_orbit_fly(nook_orbit *orbit, double forward, double right, double up)
 {
     double x[3], y[3], z[3];
     axes(orbit, x, y, z);
-    for (int i = 0; i < 3; i++)
-        orbit->target[i] += forward * z[i] + right * x[i];
+    nook_vector_add_scaled(orbit->target, forward, z, orbit->target);
+    nook_vector_add_scaled(orbit->target, right, x, orbit->target);
     orbit->target[1] += up;
 }

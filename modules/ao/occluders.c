@@ -1,3 +1,4 @@
+#include "engine/core/vector.h"
 #include "modules/ao/ao_internal.h"
 #include <math.h>
 #include <string.h>
@@ -35,7 +36,7 @@ static void set_sphere(const nook_matrix *view_from_voxel, const nook_volume_inf
     for (int corner = 0; corner < 4; corner++) { /* opposite corners are equally far */
         double half[3] = { middle[0], corner & 1 ? -middle[1] : middle[1], corner & 2 ? -middle[2] : middle[2] };
         nook_matrix_apply_vector(view_from_voxel, half, half);
-        double length = sqrt(half[0] * half[0] + half[1] * half[1] + half[2] * half[2]);
+        double length = nook_vector_length(half);
         radius = length > radius ? length : radius;
     }
     for (int axis = 0; axis < 3; axis++)

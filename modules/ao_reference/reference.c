@@ -1,9 +1,11 @@
 #include "modules/ao_reference/reference.h"
 #include "engine/core/jobs.h"
 #include "engine/core/log.h"
+#include "engine/core/vector.h"
 #include "modules/ao/falloff.h"
 #include "modules/ao/sampling.h"
 #include "modules/ao_reference/tracer_internal.h"
+#include <cglm/cglm.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -39,29 +41,34 @@ static uint32_t mix(uint32_t x)
     return x;
 }
 
-/** As octahedral_decode of shaders/nook/octahedral.glsl. */
-static void decode_normal(const uint16_t code[2], double out[3])
+/** As octahedral_decode of shaders/nook/octahedral.glsl. In double: the sign of z chooses the frame. */
+static void decode_normal(const uint16_t code[2], vec3 out)
 {
     double x = (code[0] - 32768.0) / 32767.0, y = (code[1] - 32768.0) / 32767.0;
     double z = 1.0 - fabs(x) - fabs(y), fold = z < 0.0 ? -z : 0.0;
-    x += x >= 0.0 ? -fold : fold;
-    y += y >= 0.0 ? -fold : fold;
-    double length = sqrt(x * x + y * y + z * z);
-    out[0] = x / length, out[1] = y / length, out[2] = z / length;
+    double normal[3] = { x + (x >= 0.0 ? -fold : fold), y + (y >= 0.0 ? -fold : fold), z };
+    nook_vector_normalize(normal, normal);
+    for (int axis = 0; axis < 3; axis++)
+        out[axis] = (float)normal[axis];
 }
 
-static void tangent_frame(const double n[3], double t[3], double b[3])
+/**
+ * Columns: two tangents and the normal (Duff et al., "Building an Orthonormal Basis, Revisited", 2017). In float: the
+ * normal's own steps are 100 times coarser than its rounding, and Embree takes directions in float.
+ */
+static void tangent_frame(vec3 n, mat3 frame)
 {
-    double s = n[2] >= 0.0 ? 1.0 : -1.0, a = -1.0 / (s + n[2]), c = n[0] * n[1] * a;
-    t[0] = 1.0 + s * n[0] * n[0] * a, t[1] = s * c, t[2] = -s * n[0];
-    b[0] = c, b[1] = s + n[1] * n[1] * a, b[2] = -n[1];
+    float s = n[2] >= 0.0f ? 1.0f : -1.0f, a = -1.0f / (s + n[2]), c = n[0] * n[1] * a;
+    frame[0][0] = 1.0f + s * n[0] * n[0] * a, frame[0][1] = s * c, frame[0][2] = -s * n[0];
+    frame[1][0] = c, frame[1][1] = s + n[1] * n[1] * a, frame[1][2] = -n[1];
+    glm_vec3_copy(n, frame[2]);
 }
 
 /**
  * Where rays start: the pixel's point, lifted along the normal past the rounding of its depth (24 bits, and as much again in
  * the rasteriser) and of Embree's own arithmetic, which grow with the distance from the camera.
  */
-static void ray_origin(const nook_ao_pass *pass, uint32_t x, uint32_t y, double depth, const double n[3], float out[3])
+static void ray_origin(const nook_ao_pass *pass, uint32_t x, uint32_t y, double depth, const float n[3], float out[3])
 {
     double ndc_x = 2.0 * (x + 0.5) / pass->width - 1.0, ndc_y = 2.0 * (y + 0.5) / pass->height - 1.0;
     double p[3] = { (ndc_x * pass->ray_scale[0] + pass->ray_offset[0]) * depth,
@@ -74,22 +81,23 @@ static void ray_origin(const nook_ao_pass *pass, uint32_t x, uint32_t y, double 
 static double trace_pixel(const trace_work *work, uint32_t x, uint32_t y, double depth, const uint16_t code[2])
 {
     const nook_ao_pass *pass = work->pass;
-    double n[3], t[3], b[3], sum = 0.0;
-    float origin[3];
-    decode_normal(code, n);
-    tangent_frame(n, t, b);
-    ray_origin(pass, x, y, depth, n, origin);
+    vec3 normal, origin;
+    mat3 view_from_local;
+    double sum = 0.0;
+    decode_normal(code, normal);
+    tangent_frame(normal, view_from_local);
+    ray_origin(pass, x, y, depth, normal, origin);
     uint32_t h = mix(x + mix(y + mix(pass->seed)));
     float shift_x = (float)(h >> 8) / 16777216.0f, shift_y = (float)(mix(h) >> 8) / 16777216.0f;
     int any = pass->falloff == NOOK_FALLOFF_HARD;
     for (uint32_t i = 0; i < work->rays; i++) {
-        float point[2] = { work->points[2 * i] + shift_x, work->points[2 * i + 1] + shift_y }, local[3], d[3];
+        float point[2] = { work->points[2 * i] + shift_x, work->points[2 * i + 1] + shift_y };
+        vec3 local, direction;
         point[0] -= point[0] >= 1.0f ? 1.0f : 0.0f;
         point[1] -= point[1] >= 1.0f ? 1.0f : 0.0f;
         nook_cosine_direction(point, local);
-        for (int axis = 0; axis < 3; axis++)
-            d[axis] = (float)(t[axis] * local[0] + b[axis] * local[1] + n[axis] * local[2]);
-        float distance = tracer_distance(work->tracer, origin, d, (float)pass->r_max, any);
+        glm_mat3_mulv(view_from_local, local, direction);
+        float distance = tracer_distance(work->tracer, origin, direction, (float)pass->r_max, any);
         sum += nook_falloff_evaluate((nook_falloff)pass->falloff, distance, pass->r_max, pass->falloff_tau);
     }
     return 1.0 - sum / work->rays;

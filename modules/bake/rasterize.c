@@ -1,4 +1,5 @@
 #include "modules/bake/rasterize.h"
+#include "engine/core/vector.h"
 #include <math.h>
 
 /*
@@ -161,13 +162,13 @@ static double distance_squared(const int32_t a[3], const int32_t b[3])
 static double altitude(const nook_snapped_triangle *triangle, int from, int to, double length)
 {
     const int32_t *a = triangle->corner[from], *b = triangle->corner[to], *c = triangle->corner[3 - from - to];
-    double e[3], f[3];
+    double ab[3], ac[3], normal[3];
     for (int i = 0; i < 3; i++) {
-        e[i] = (double)b[i] - a[i];
-        f[i] = (double)c[i] - a[i];
+        ab[i] = (double)b[i] - a[i];
+        ac[i] = (double)c[i] - a[i];
     }
-    double x = e[1] * f[2] - e[2] * f[1], y = e[2] * f[0] - e[0] * f[2], z = e[0] * f[1] - e[1] * f[0];
-    return length > 0.0 ? sqrt(x * x + y * y + z * z) / length : 0.0;
+    nook_vector_cross(ab, ac, normal);
+    return length > 0.0 ? nook_vector_length(normal) / length : 0.0;
 }
 
 void nook_rasterize_narrow(const nook_snapped_triangle *triangle, const int32_t inner[3],

@@ -2,6 +2,7 @@
 #include "engine/core/jobs.h"
 #include "engine/core/log.h"
 #include "modules/bake/rasterize.h"
+#include <cglm/cglm.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -48,21 +49,22 @@ static nook_result check_input(const nook_triangles *triangles, const nook_voxel
 static nook_result find_box(const nook_triangles *triangles, double out_min[3], double out_max[3])
 {
     size_t left_out = 0, count = triangles->index_count / 3;
-    for (int axis = 0; axis < 3; axis++) {
-        out_min[axis] = INFINITY;
-        out_max[axis] = -INFINITY;
-    }
+    vec3 box[2];
+    glm_aabb_invalidate(box);
     for (size_t t = 0; t < count; t++) {
         float corner[3][3];
         if (!read_triangle(triangles, t, corner)) {
             left_out++;
             continue;
         }
-        for (int i = 0; i < 3; i++)
-            for (int axis = 0; axis < 3; axis++) {
-                out_min[axis] = fmin(out_min[axis], corner[i][axis]);
-                out_max[axis] = fmax(out_max[axis], corner[i][axis]);
-            }
+        for (int i = 0; i < 3; i++) {
+            glm_vec3_minv(box[0], corner[i], box[0]);
+            glm_vec3_maxv(box[1], corner[i], box[1]);
+        }
+    }
+    for (int axis = 0; axis < 3; axis++) {
+        out_min[axis] = box[0][axis];
+        out_max[axis] = box[1][axis];
     }
     if (left_out == count)
         return nook_fail(NOOK_E_ARG, "voxelize: none of %zu triangles is finite: nothing to voxelize", count);

@@ -1,10 +1,11 @@
 #include "modules/measure/colour_map.h"
+#include <cglm/cglm.h>
 #include <math.h>
 #include <stddef.h>
 
 static uint8_t encode_srgb(float linear)
 {
-    float x = fminf(fmaxf(linear, 0.0f), 1.0f);
+    float x = glm_clamp_zo(linear);
     float encoded = x <= 0.0031308f ? 12.92f * x : 1.055f * powf(x, 1.0f / 2.4f) - 0.055f;
     return (uint8_t)lrintf(encoded * 255.0f);
 }
@@ -12,15 +13,18 @@ static uint8_t encode_srgb(float linear)
 /* Ottosson, "A perceptual color space for image processing", 2020. */
 static nook_rgb from_oklab(float lightness, float a, float b)
 {
-    float l = lightness + 0.3963377774f * a + 0.2158037573f * b;
-    float m = lightness - 0.1055613458f * a - 0.0638541728f * b;
-    float s = lightness - 0.0894841775f * a - 1.2914855480f * b;
-    l = l * l * l;
-    m = m * m * m;
-    s = s * s * s;
-    return (nook_rgb){ encode_srgb(4.0767416621f * l - 3.3077115913f * m + 0.2309699292f * s),
-                       encode_srgb(-1.2684380046f * l + 2.6097574011f * m - 0.3413193965f * s),
-                       encode_srgb(-0.0041960863f * l - 0.7034186147f * m + 1.7076147010f * s) };
+    mat3 cones_from_lab = { { 1.0f, 1.0f, 1.0f },
+                            { 0.3963377774f, -0.1055613458f, -0.0894841775f },
+                            { 0.2158037573f, -0.0638541728f, -1.2914855480f } };
+    mat3 rgb_from_cones = { { 4.0767416621f, -1.2684380046f, -0.0041960863f },
+                            { -3.3077115913f, 2.6097574011f, -0.7034186147f },
+                            { 0.2309699292f, -0.3413193965f, 1.7076147010f } };
+    vec3 lab = { lightness, a, b }, root, cones, rgb;
+    glm_mat3_mulv(cones_from_lab, lab, root);
+    glm_vec3_mul(root, root, cones);
+    glm_vec3_mul(cones, root, cones);
+    glm_mat3_mulv(rgb_from_cones, cones, rgb);
+    return (nook_rgb){ encode_srgb(rgb[0]), encode_srgb(rgb[1]), encode_srgb(rgb[2]) };
 }
 
 nook_rgb nook_error_colour(float error, float range)

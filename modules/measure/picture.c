@@ -1,6 +1,7 @@
 #include "modules/measure/picture.h"
 #include "engine/core/file.h"
 #include "engine/core/log.h"
+#include <cglm/cglm.h>
 #include <math.h>
 #include <stb/stb_image_resize.h>
 #include <stb/stb_image_write.h>
@@ -48,7 +49,7 @@ static nook_rgb grey_colour(float value)
 {
     if (isnan(value))
         return (nook_rgb){ 255, 0, 255 };
-    uint8_t grey = (uint8_t)lrintf(fminf(fmaxf(value, 0.0f), 1.0f) * 255.0f);
+    uint8_t grey = (uint8_t)lrintf(glm_clamp_zo(value) * 255.0f);
     return (nook_rgb){ grey, grey, grey };
 }
 
