@@ -52,7 +52,7 @@ in_window() {
         press() { xdotool key --window "$window" "$1"; }
         wait_for 120 find_window
         eval "$script"
-        press Escape
+        xdotool keydown --window "$window" Escape # no release: the window is gone by then
         wait $program_id
     '
 }
