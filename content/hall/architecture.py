@@ -1,26 +1,28 @@
-"""The hall itself: floor, arcades, galleries, walls, vault, door. Bays are modelled once and drawn many times."""
+"""The hall itself: floor, arcades, galleries, walls. Bays are modelled once and drawn many times."""
 import math
 import random
 import numpy as np
-from plan import *
-from shapes import WHITE, arc_frames, box, join, lathe, make, prism, rings, solid, square_lathe, sweep
+from plan import BAY, ARCADE_Y, ARCADE_HALF, WALL_Y, WALL_DEPTH, SPRING, ARCH_RADIUS, GALLERY, EAVES
+from shapes import arc_frames, box, join, lathe, make, prism, rings, square_lathe, sweep
 
 HALF_BAY = BAY / 2
-WALL_TINT = (1.0, 0.93, 0.80)          # warm cream
-NICHE_TINT = (0.93, 0.74, 0.58)         # terracotta wash
-COFFER_TINT = (0.55, 0.74, 0.78)        # faded blue in the vault's panels
+WALL_TINT = (1.0, 0.93, 0.80)  # warm cream
+NICHE_TINT = (0.93, 0.74, 0.58)  # terracotta wash
 
 
 # ---- floor ----
 
+
 def tile(x, y, rng, tint):
     """One slab of 1 x 1 m whose cut edges leave a sunken joint."""
     cut, deep, half = 0.009, 0.008, 0.5 - 0.004
-    cut = cut if abs(y) < 5.0 else 0.0      # upright edges in the aisles, where nobody looks closely
+    cut = cut if abs(y) < 5.0 else 0.0  # upright edges in the aisles, where nobody looks closely
     shade = rng.uniform(0.90, 1.0)
     shift = (rng.randrange(4) * 0.5, rng.randrange(4) * 0.5)
-    loops = [[(x + sx * (half - d), y + sy * (half - d), z) for sx, sy in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
-             for d, z in ((0.0, -deep), (cut, 0.0))]
+    loops = [
+        [(x + sx * (half - d), y + sy * (half - d), z) for sx, sy in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+        for d, z in ((0.0, -deep), (cut, 0.0))
+    ]
     out = rings(loops, 'marble', tuple(shade * c for c in tint), ends=(False, True))
     out.uvs = [[(u + shift[0], v + shift[1]) for u, v in uv] for uv in out.uvs]
     return out
@@ -36,18 +38,22 @@ def floor():
             x, y = -11.5 + i, -6.5 + j
             tint = border if 4.0 < abs(y) < 5.0 else (light, dark)[(i + j) % 2]
             tiles.append(tile(x, y, rng, tint))
-    bed = make([(-12.2, -7.2, -0.007), (12.2, -7.2, -0.007), (12.2, 7.2, -0.007), (-12.2, 7.2, -0.007)], [(0, 1, 2, 3)],
-               'stone', (0.55, 0.5, 0.44))
+    bed = make(
+        [(-12.2, -7.2, -0.007), (12.2, -7.2, -0.007), (12.2, 7.2, -0.007), (-12.2, 7.2, -0.007)],
+        [(0, 1, 2, 3)],
+        'stone',
+        (0.55, 0.5, 0.44),
+    )
     under = box((-12.6, -8.0, -0.4), (12.6, 8.0, -0.2), 'stone')
     return join(tiles + [bed, under])
 
 
 # ---- arcade ----
 
+
 def column():
     """Base, shaft with entasis, and a leafy capital that turns from round to square. Its foot is at the origin."""
-    base = [(0.33, 0.11), (0.352, 0.16), (0.335, 0.20), (0.287, 0.235), (0.308, 0.28),
-            (0.265, 0.31)]
+    base = [(0.33, 0.11), (0.352, 0.16), (0.335, 0.20), (0.287, 0.235), (0.308, 0.28), (0.265, 0.31)]
     shaft = [(0.25, 0.34), (0.243, 1.2), (0.215, 1.98)]
     neck = [(0.243, 2.0), (0.243, 2.04)]
     bell = [(0.215, 2.06), (0.24, 2.17), (0.32, 2.31), (0.345, 2.34), (0.33, 2.37)]
@@ -72,7 +78,14 @@ def arch_outline(left, right, bottom, spring, radius, top, steps=14):
 
 def archivolt(radius, width, depth, y, outward, spring, steps=14):
     """A stepped moulding around a half circle, standing `depth` out of a wall face at y."""
-    profile = [(0.012, -0.02), (0.012, 0.55 * depth), (0.6 * width, 0.6 * depth), (0.7 * width, depth), (width, depth), (width, -0.02)]
+    profile = [
+        (0.012, -0.02),
+        (0.012, 0.55 * depth),
+        (0.6 * width, 0.6 * depth),
+        (0.7 * width, depth),
+        (width, depth),
+        (width, -0.02),
+    ]
     return sweep(profile, arc_frames(radius, 0, math.pi, steps + 1, (0, spring), y, outward), 'stone')
 
 
@@ -89,13 +102,22 @@ def keystone(y, outward):
 
 
 def arcade_bay():
-    """One arch with its spandrels; +y looks into the nave. Origin: the bay's middle on the floor, on the columns' axis."""
+    """One arch with its spandrels; +y looks into the nave. Origin: mid-bay on the floor, on the columns' axis."""
     t = ARCADE_HALF
     top = GALLERY - 0.02
     outline = arch_outline(-HALF_BAY, HALF_BAY, SPRING, SPRING, ARCH_RADIUS, top)
     wall = prism(outline, -t, t, 'ashlar', skip=(0, len(outline) - 2))
-    cornice = [(t - 0.02, 4.31), (t + 0.03, 4.31), (t + 0.04, 4.35), (t + 0.09, 4.38), (t + 0.16, 4.42), (t + 0.16, 4.45),
-               (t + 0.21, 4.47), (t + 0.21, GALLERY), (t - 0.1, GALLERY)]
+    cornice = [
+        (t - 0.02, 4.31),
+        (t + 0.03, 4.31),
+        (t + 0.04, 4.35),
+        (t + 0.09, 4.38),
+        (t + 0.16, 4.42),
+        (t + 0.16, 4.45),
+        (t + 0.21, 4.47),
+        (t + 0.21, GALLERY),
+        (t - 0.1, GALLERY),
+    ]
     parts = [wall, along_x(cornice, -HALF_BAY, HALF_BAY)]
     for side in (1, -1):
         parts += [archivolt(ARCH_RADIUS, 0.20, 0.07, side * t, side, SPRING), keystone(side * t, side)]
@@ -103,7 +125,7 @@ def arcade_bay():
 
 
 def gallery_slab():
-    """The gallery's floor over one bay, its boards' edges, and a beam with brackets below. Same origin as arcade_bay."""
+    """The gallery's floor over one bay: boards, a stone kerb, beams below. Same origin as arcade_bay."""
     inner, outer = -0.28, -(WALL_Y - ARCADE_Y) - 0.02
     slab = box((-HALF_BAY, outer, 4.36), (HALF_BAY, -0.21, GALLERY - 0.03), 'wood', (0.8, 0.74, 0.68), grain=True)
     kerb = box((-HALF_BAY, -0.24, 4.36), (HALF_BAY, 0.2, GALLERY), 'stone')
@@ -121,7 +143,13 @@ def gallery_boards(outer, inner):
     for i in range(count):
         y0, y1 = outer + (inner - outer) * i / count, outer + (inner - outer) * (i + 1) / count
         shade = rng.uniform(0.72, 0.95)
-        board = box((-HALF_BAY, y0 + 0.004, GALLERY - 0.03), (HALF_BAY, y1 - 0.004, GALLERY), 'wood', (shade, 0.95 * shade, 0.9 * shade), grain=True)
+        board = box(
+            (-HALF_BAY, y0 + 0.004, GALLERY - 0.03),
+            (HALF_BAY, y1 - 0.004, GALLERY),
+            'wood',
+            (shade, 0.95 * shade, 0.9 * shade),
+            grain=True,
+        )
         board.uvs = [[(u, v + 0.37 * i) for u, v in uv] for uv in board.uvs]
         out.append(board)
     return out
@@ -131,17 +159,42 @@ def gallery_beam():
     """A stone beam over each column from the arcade to the wall, on a bracket. Origin: the column's foot."""
     outer = -(WALL_Y - ARCADE_Y) - 0.02
     beam = box((-0.19, outer, 4.0), (0.19, -0.28, 4.38), 'stone', bevel=0.02)
-    bracket = [(outer, 3.55), (outer + 0.22, 3.62), (outer + 0.30, 3.75), (outer + 0.42, 3.85), (outer + 0.46, 4.01), (outer, 4.01)]
+    bracket = [
+        (outer, 3.55),
+        (outer + 0.22, 3.62),
+        (outer + 0.30, 3.75),
+        (outer + 0.42, 3.85),
+        (outer + 0.46, 4.01),
+        (outer, 4.01),
+    ]
     return join([beam, prism(bracket, -0.15, 0.15, axis='x')])
 
 
-BALUSTER = [(0.056, 0.0), (0.054, 0.055), (0.036, 0.075), (0.066, 0.21), (0.053, 0.31), (0.031, 0.43), (0.048, 0.52), (0.056, 0.62)]
+BALUSTER = [
+    (0.056, 0.0),
+    (0.054, 0.055),
+    (0.036, 0.075),
+    (0.066, 0.21),
+    (0.053, 0.31),
+    (0.031, 0.43),
+    (0.048, 0.52),
+    (0.056, 0.62),
+]
 
 
 def balustrade(length, count):
     """Balusters between two rails, from x = 0 to `length`, the post at x = 0. +y looks out. Stands on z = 0."""
     foot = [(-0.12, 0.0), (0.12, 0.0), (0.12, 0.10), (0.09, 0.14), (-0.09, 0.14), (-0.12, 0.10)]
-    rail = [(-0.09, 0.74), (0.09, 0.74), (0.13, 0.78), (0.14, 0.83), (0.11, 0.88), (-0.11, 0.88), (-0.14, 0.83), (-0.13, 0.78)]
+    rail = [
+        (-0.09, 0.74),
+        (0.09, 0.74),
+        (0.13, 0.78),
+        (0.14, 0.83),
+        (0.11, 0.88),
+        (-0.11, 0.88),
+        (-0.14, 0.83),
+        (-0.13, 0.78),
+    ]
     parts = [along_x(foot, 0.16, length - 0.16), along_x(rail, 0.16, length - 0.16), pedestal()]
     clear = length - 0.36
     for i in range(count):
@@ -152,18 +205,27 @@ def balustrade(length, count):
 
 def pedestal():
     """The square post of a balustrade, moulded at foot and head."""
-    profile = [(0.19, 0.0), (0.19, 0.11), (0.165, 0.15), (0.165, 0.74), (0.185, 0.77), (0.20, 0.83), (0.20, 0.90),
-               (0.17, 0.93)]
+    profile = [
+        (0.19, 0.0),
+        (0.19, 0.11),
+        (0.165, 0.15),
+        (0.165, 0.74),
+        (0.185, 0.77),
+        (0.20, 0.83),
+        (0.20, 0.90),
+        (0.17, 0.93),
+    ]
     return square_lathe(profile, caps=(False, True))
 
 
 # ---- long walls ----
 
+
 def holed_wall(radius, sill, spring, bottom, top, front, back, material, caps, reveal):
-    """A bay of wall with a round-arched opening, in two halves. front, back: y. reveal: wall the opening's sides too."""
+    """A bay of wall with a round-arched opening, in two halves. front, back: y. reveal: its sides too."""
     halves = []
     for side in (-1, 1):
-        arc = [(side * radius * math.cos(t), spring + radius * math.sin(t)) for t in np.linspace(0, math.pi / 2, 11)]
+        arc = [(side * radius * math.cos(t), spring + radius * math.sin(t)) for t in np.linspace(0, math.pi / 2, 7)]
         outline = [(side * HALF_BAY, bottom), (0.0, bottom), (0.0, sill), (side * radius, sill)] + arc
         outline += [(0.0, top), (side * HALF_BAY, top)]
         n = len(outline)
@@ -189,26 +251,48 @@ def apse(radius, depth, sill, spring, y, steps=10):
 
 def frame(radius, width, depth, sill, spring, y):
     """A moulding around an arched opening, down its sides to the sill; stands toward -y."""
-    profile = [(0.01, -0.02), (0.01, 0.6 * depth), (0.4 * width, 0.6 * depth), (0.55 * width, depth), (width, depth),
-               (width, -0.02)]
+    profile = [
+        (0.01, -0.02),
+        (0.01, 0.6 * depth),
+        (0.4 * width, 0.6 * depth),
+        (0.55 * width, depth),
+        (width, depth),
+        (width, -0.02),
+    ]
     way = arc_frames(radius, 0, math.pi, 13, (0, spring), y, -1)
     way = [((radius, y, sill), (1, 0, 0), (0, -1, 0))] + way + [((-radius, y, sill), (-1, 0, 0), (0, -1, 0))]
     return sweep(profile, way, 'stone')
 
 
 def sill_stone(radius, sill, y):
-    profile = [(y + 0.05, sill - 0.16), (y - 0.04, sill - 0.16), (y - 0.06, sill - 0.09), (y - 0.13, sill - 0.06), (y - 0.13, sill),
-               (y + 0.05, sill)]
+    profile = [
+        (y + 0.05, sill - 0.16),
+        (y - 0.04, sill - 0.16),
+        (y - 0.06, sill - 0.09),
+        (y - 0.13, sill - 0.06),
+        (y - 0.13, sill),
+        (y + 0.05, sill),
+    ]
     return along_x(profile, -radius - 0.24, radius + 0.24, caps=(True, True))
 
 
 def pilaster(width, depth, bottom, top, y):
     """A flat pier on a wall face at y, toward -y, with base and cap."""
+
     def block(extra, z0, z1):
         return box((-width / 2 - extra, y - depth - extra, z0), (width / 2 + extra, y + 0.02, z1), 'stone')
+
     shaft = box((-width / 2, y - depth, bottom), (width / 2, y + 0.02, top - 0.01), 'ashlar')
-    return join([shaft, block(0.06, bottom, bottom + 0.22), block(0.035, bottom + 0.2, bottom + 0.3),
-                 block(0.03, top - 0.32, top - 0.27), block(0.03, top - 0.17, top - 0.1), block(0.065, top - 0.11, top)])
+    return join(
+        [
+            shaft,
+            block(0.06, bottom, bottom + 0.22),
+            block(0.035, bottom + 0.2, bottom + 0.3),
+            block(0.03, top - 0.32, top - 0.27),
+            block(0.03, top - 0.17, top - 0.1),
+            block(0.065, top - 0.11, top),
+        ]
+    )
 
 
 def aisle_wall_bay():
@@ -222,14 +306,32 @@ def aisle_wall_bay():
     dado.append(along_x(skirting, -HALF_BAY, HALF_BAY))
     for x0, x1 in ((-HALF_BAY, -radius - 0.16), (radius + 0.16, HALF_BAY)):
         dado.append(along_x(impost, x0, x1, caps=(True, True)))
-    return join([wall.painted('plaster', WALL_TINT), outside, apse(radius, 0.72, sill, spring, 0.0), frame(radius, 0.16, 0.06, sill, spring, 0.0),
-                 sill_stone(radius, sill, 0.0)] + dado)
+    return join(
+        [
+            wall.painted('plaster', WALL_TINT),
+            outside,
+            apse(radius, 0.72, sill, spring, 0.0),
+            frame(radius, 0.16, 0.06, sill, spring, 0.0),
+            sill_stone(radius, sill, 0.0),
+        ]
+        + dado
+    )
 
 
 def upper_cornice():
     """The moulding from which the vault springs, one bay long."""
-    profile = [(0.02, EAVES - 0.30), (-0.04, EAVES - 0.30), (-0.05, EAVES - 0.24), (-0.10, EAVES - 0.20), (-0.13, EAVES - 0.13),
-               (-0.22, EAVES - 0.09), (-0.22, EAVES - 0.05), (-0.27, EAVES - 0.02), (-0.27, EAVES + 0.05), (0.02, EAVES + 0.09)]
+    profile = [
+        (0.02, EAVES - 0.30),
+        (-0.04, EAVES - 0.30),
+        (-0.05, EAVES - 0.24),
+        (-0.10, EAVES - 0.20),
+        (-0.13, EAVES - 0.13),
+        (-0.22, EAVES - 0.09),
+        (-0.22, EAVES - 0.05),
+        (-0.27, EAVES - 0.02),
+        (-0.27, EAVES + 0.05),
+        (0.02, EAVES + 0.09),
+    ]
     return along_x(profile, -HALF_BAY, HALF_BAY)
 
 
@@ -238,16 +340,33 @@ def upper_wall_bay(open_window):
     radius, sill, spring, thick = 0.72, GALLERY + 0.85, 6.05, 0.5
     deep = thick if open_window else 0.28
     caps = (True, open_window)
-    wall = holed_wall(radius, sill, spring, GALLERY - 0.3, EAVES + 0.2, 0.0, deep, 'plaster', caps, True).painted('plaster', WALL_TINT)
-    skirting = [(0.02, GALLERY - 0.02), (-0.05, GALLERY - 0.02), (-0.05, GALLERY + 0.22), (-0.02, GALLERY + 0.27), (0.02, GALLERY + 0.27)]
-    parts = [wall, frame(radius, 0.15, 0.06, sill, spring, 0.0), sill_stone(radius, sill, 0.0), upper_cornice(),
-             along_x(skirting, -HALF_BAY, HALF_BAY)]
+    wall = holed_wall(radius, sill, spring, GALLERY - 0.3, EAVES + 0.2, 0.0, deep, 'plaster', caps, True).painted(
+        'plaster', WALL_TINT
+    )
+    skirting = [
+        (0.02, GALLERY - 0.02),
+        (-0.05, GALLERY - 0.02),
+        (-0.05, GALLERY + 0.22),
+        (-0.02, GALLERY + 0.27),
+        (0.02, GALLERY + 0.27),
+    ]
+    parts = [
+        wall,
+        frame(radius, 0.15, 0.06, sill, spring, 0.0),
+        sill_stone(radius, sill, 0.0),
+        upper_cornice(),
+        along_x(skirting, -HALF_BAY, HALF_BAY),
+    ]
     if open_window:
         parts += window_bars(radius, sill, spring, 0.34, 2, 4)
     else:
         back = box((-HALF_BAY, deep, GALLERY - 0.3), (HALF_BAY, thick, EAVES + 0.2), 'plaster', NICHE_TINT)
-        boss = lathe([(0.30, 0.0), (0.30, 0.03), (0.25, 0.06), (0.22, 0.035), (0.16, 0.035), (0.12, 0.08), (0, 0.11)], 16,
-                     'stone', caps=(False, False)).turned('x', 90)
+        boss = lathe(
+            [(0.30, 0.0), (0.30, 0.03), (0.25, 0.06), (0.22, 0.035), (0.16, 0.035), (0.12, 0.08), (0, 0.11)],
+            16,
+            'stone',
+            caps=(False, False),
+        ).turned('x', 90)
         parts += [back, boss.moved(0, deep, spring)]
     return join(parts)
 
@@ -257,77 +376,12 @@ def window_bars(radius, sill, spring, y, uprights, levels, size=0.022):
     bars = []
     for i in range(uprights):
         x = radius * (2 * (i + 1) / (uprights + 1) - 1)
-        top = spring + math.sqrt(radius ** 2 - x ** 2) + 0.02
+        top = spring + math.sqrt(radius**2 - x**2) + 0.02
         bars.append(box((x - size, y - size, sill - 0.02), (x + size, y + size, top), 'iron'))
     for i in range(levels):
         z = sill + (spring + radius - sill) * (i + 1) / (levels + 1)
-        half = radius if z < spring else math.sqrt(radius ** 2 - (z - spring) ** 2)
-        bars.append(box((-half - 0.02, y - 0.7 * size, z - 0.7 * size), (half + 0.02, y + 0.7 * size, z + 0.7 * size), 'iron'))
+        half = radius if z < spring else math.sqrt(radius**2 - (z - spring) ** 2)
+        bars.append(
+            box((-half - 0.02, y - 0.7 * size, z - 0.7 * size), (half + 0.02, y + 0.7 * size, z + 0.7 * size), 'iron')
+        )
     return bars
-
-
-# ---- vault ----
-
-def vault_point(angle, x, lift):
-    r = VAULT_RADIUS + lift
-    return (x, r * math.sin(angle), VAULT_CENTRE + r * math.cos(angle))
-
-
-def coffer_loop(x0, x1, a0, a1, lift, steps=2):
-    """A rectangle on the vault, seen from below counter-clockwise; its curved sides in `steps` chords."""
-    up = [(x1, a) for a in np.linspace(a0, a1, steps + 1)]
-    back = [(x0, a) for a in np.linspace(a1, a0, steps + 1)]
-    return [vault_point(a, x, lift) for x, a in up + back]
-
-
-def coffer(x0, x1, a0, a1, is_open):
-    """One coffer: a flat frame, two sunk steps and a panel, or an opening to the sky with a cover around it."""
-    da = lambda metres: metres / VAULT_RADIUS
-    levels = [(0.0, 0.0), (0.20, 0.0), (0.22, 0.16), (0.38, 0.16), (0.40, 0.32)]
-    if is_open:
-        levels = levels[:3] + [(0.38, 0.16), (0.38, 0.50)]
-    loops = [coffer_loop(x0 + d, x1 - d, a0 + da(d), a1 - da(d), lift) for d, lift in levels]
-    inside = rings(loops, 'plaster')
-    d = levels[-1][0]
-    cover = [coffer_loop(x0, x1, a0, a1, 0.50)]
-    if is_open:
-        cover.append(coffer_loop(x0 + d, x1 - d, a0 + da(d), a1 - da(d), 0.50))
-        return join([inside, rings(cover, 'stone').flipped()])
-    return join([inside, panel(x0 + d, x1 - d, a0 + da(d), a1 - da(d), 0.32, 2, COFFER_TINT), panel(x0, x1, a0, a1, 0.50).flipped(), rosette(x0, x1, a0, a1)])
-
-
-def panel(x0, x1, a0, a1, lift, steps=2, tint=WHITE):
-    angles = np.linspace(a0, a1, steps + 1)
-    points = [vault_point(a, x, lift) for a in angles for x in (x0, x1)]
-    return make(points, [(2 * i, 2 * i + 2, 2 * i + 3, 2 * i + 1) for i in range(steps)], 'plaster', tint).flipped()
-
-
-def rosette(x0, x1, a0, a1):
-    """A boss in the coffer's middle."""
-    middle = (a0 + a1) / 2
-    petals = lambda angle, r, z: r * (1 + 0.13 * math.cos(5 * angle)) if r > 0.09 else r
-    boss = lathe([(0.21, -0.02), (0.22, 0.03), (0.08, 0.05), (0.0, 0.115)], 10, 'brass', shape=petals, caps=(False, False))
-    boss = boss.turned('x', 180).turned('x', -math.degrees(middle))
-    return boss.moved(*vault_point(middle, (x0 + x1) / 2, 0.31))
-
-
-def vault_bay(is_open):
-    """Coffers over one bay, seven across and two along. With is_open, the middle ones let the sun in."""
-    reach = math.asin(WALL_Y / VAULT_RADIUS) + 0.01
-    edges = np.linspace(-reach, reach, 8)
-    cells = []
-    for x0, x1 in ((-HALF_BAY + 0.12, 0.0), (0.0, HALF_BAY - 0.12)):
-        for i in range(7):
-            cells.append(coffer(x0, x1, edges[i], edges[i + 1], is_open and i == 3))
-    for x0, x1 in ((-HALF_BAY, -HALF_BAY + 0.12), (HALF_BAY - 0.12, HALF_BAY)):
-        cells += [panel(x0, x1, -reach, reach, 0.0, 14), panel(x0, x1, -reach, reach, 0.50, 14).flipped()]
-    return join(cells)
-
-
-def vault_rib():
-    """A transverse arch under the vault, over each pair of pilasters. Origin on the hall's axis."""
-    reach = math.asin((WALL_Y + 0.05) / VAULT_RADIUS)
-    profile = [(0.22, 0.04), (0.22, -0.08), (0.17, -0.12), (0.17, -0.22), (0.12, -0.26), (-0.12, -0.26), (-0.17, -0.22), (-0.17, -0.12),
-               (-0.22, -0.08), (-0.22, 0.04)]
-    frames = [(vault_point(a, 0.0, 0.0), (1, 0, 0), (0, math.sin(a), math.cos(a))) for a in np.linspace(-reach, reach, 17)]
-    return sweep(profile, frames, 'stone')

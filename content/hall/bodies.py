@@ -7,23 +7,36 @@ from shapes import box, cylinder, join, lathe, prism, solid, tube
 
 # ---- crates ----
 
+
 def crate(size_x, size_y, size_z, seed, braces=True):
     """Boards between twelve edge beams, a brace across each side. Its hull is an exact box."""
     rng = random.Random(seed)
     beam, inset, thick = 0.055, 0.016, 0.02
     hx, hy = size_x / 2, size_y / 2
-    parts = [box((sx * hx - (beam if sx > 0 else 0), sy * hy - (beam if sy > 0 else 0), 0),
-                 (sx * hx + (0 if sx > 0 else beam), sy * hy + (0 if sy > 0 else beam), size_z), 'wood', shade(rng, 0.85), grain=True)
-             for sx in (-1, 1) for sy in (-1, 1)]
+    parts = [
+        box(
+            (sx * hx - (beam if sx > 0 else 0), sy * hy - (beam if sy > 0 else 0), 0),
+            (sx * hx + (0 if sx > 0 else beam), sy * hy + (0 if sy > 0 else beam), size_z),
+            'wood',
+            shade(rng, 0.85),
+            grain=True,
+        )
+        for sx in (-1, 1)
+        for sy in (-1, 1)
+    ]
     for end in (0, 1):
         z0 = end * (size_z - beam)
         for s in (-1, 1):
             y0 = s * hy - (beam if s > 0 else 0)
             x0 = s * hx - (beam if s > 0 else 0)
-            parts.append(box((-hx + beam, y0, z0), (hx - beam, y0 + beam, z0 + beam), 'wood', shade(rng, 0.85), grain=True))
-            parts.append(box((x0, -hy + beam, z0), (x0 + beam, hy - beam, z0 + beam), 'wood', shade(rng, 0.85), grain=True))
+            parts.append(
+                box((-hx + beam, y0, z0), (hx - beam, y0 + beam, z0 + beam), 'wood', shade(rng, 0.85), grain=True)
+            )
+            parts.append(
+                box((x0, -hy + beam, z0), (x0 + beam, hy - beam, z0 + beam), 'wood', shade(rng, 0.85), grain=True)
+            )
     half = (hx - inset, hy - inset, size_z / 2 - inset)
-    lid = (hx - beam - 0.001, hy - beam - 0.001, size_z / 2)      # between the beams and flush: things stand on it
+    lid = (hx - beam - 0.001, hy - beam - 0.001, size_z / 2)  # between the beams and flush: things stand on it
     for axis in range(3):
         for side in (-1, 1):
             parts += crate_side(axis, side, lid if axis == 2 else half, thick, size_z / 2, rng)
@@ -69,8 +82,14 @@ def crate_braces(hx, hy, size_z, beam, rng):
         w = 0.045
         c = w / math.hypot(run, rise)
         dx, dz = c * rise, c * run
-        outline = [(-run / 2, beam), (-run / 2 + 2 * dx, beam), (run / 2, size_z - beam - 2 * dz), (run / 2, size_z - beam),
-                   (run / 2 - 2 * dx, size_z - beam), (-run / 2, beam + 2 * dz)]
+        outline = [
+            (-run / 2, beam),
+            (-run / 2 + 2 * dx, beam),
+            (run / 2, size_z - beam - 2 * dz),
+            (run / 2, size_z - beam),
+            (run / 2 - 2 * dx, size_z - beam),
+            (-run / 2, beam + 2 * dz),
+        ]
         for side in (-1, 1):
             lo, hi = sorted((side * (face - 0.004), side * (face - 0.022)))
             out.append(prism(outline, lo, hi, 'wood', shade(rng, 0.9), axis=axis))
@@ -89,7 +108,14 @@ def drum(material):
     for z in (0.295, 0.585):
         side += [(r - 0.012, z - 0.022), (r, z - 0.006), (r, z + 0.006), (r - 0.012, z + 0.022)]
     h = DRUM_HEIGHT
-    side += [(r - 0.012, h - 0.024), (r, h - 0.010), (r - 0.002, h), (r - 0.020, h), (r - 0.030, h - 0.02), (0.13, h - 0.02), (0.12, h - 0.016), (0, h - 0.016)]
+    side += [
+        (r - 0.012, h - 0.024),
+        (r, h - 0.010),
+        (r - 0.002, h),
+        (r - 0.020, h),
+        (r - 0.030, h - 0.02),
+        (0, h - 0.016),
+    ]
     body = lathe(side, 22, material)
     bung = cylinder(0.033, h - 0.025, h - 0.004, 8, 'iron')
     return join([body, bung.moved(0.19, 0, 0), cylinder(0.02, h - 0.025, h - 0.006, 8, 'iron').moved(-0.19, 0.03, 0)])
@@ -97,8 +123,20 @@ def drum(material):
 
 def bucket():
     """Open, with thickness, a rolled rim and a bail lying on the rim."""
-    profile = [(0.0, 0.012), (0.105, 0.012), (0.108, 0.0), (0.116, 0.0), (0.122, 0.02), (0.158, 0.27), (0.166, 0.277), (0.166, 0.287), (0.156, 0.29), (0.150, 0.28),
-               (0.117, 0.03), (0.0, 0.028)]
+    profile = [
+        (0.0, 0.012),
+        (0.105, 0.012),
+        (0.108, 0.0),
+        (0.116, 0.0),
+        (0.122, 0.02),
+        (0.158, 0.27),
+        (0.166, 0.277),
+        (0.166, 0.287),
+        (0.156, 0.29),
+        (0.150, 0.28),
+        (0.117, 0.03),
+        (0.0, 0.028),
+    ]
     bail = [(0.17 * math.cos(t), 0.16 * math.sin(t), 0.294 + 0.004 * math.sin(t)) for t in np.linspace(0, math.pi, 13)]
     ears = [box((s * 0.168 - 0.012, -0.02, 0.255), (s * 0.168 + 0.012, 0.02, 0.30), 'iron') for s in (-1, 1)]
     return join([lathe(profile, 18, 'iron'), tube(bail, 0.005, 5, 'iron')] + ears)
@@ -120,12 +158,13 @@ def chain(links, seed):
 
 def chain_link():
     half, bend, rod = 0.026, 0.026, 0.0085
-    ends = [(half + bend * math.cos(t), bend * math.sin(t), 0) for t in np.linspace(-math.pi / 2, math.pi / 2, 5)]
-    ends += [(-half - bend * math.cos(t), -bend * math.sin(t), 0) for t in np.linspace(-math.pi / 2, math.pi / 2, 5)]
+    ends = [(half + bend * math.cos(t), bend * math.sin(t), 0) for t in np.linspace(-math.pi / 2, math.pi / 2, 4)]
+    ends += [(-half - bend * math.cos(t), -bend * math.sin(t), 0) for t in np.linspace(-math.pi / 2, math.pi / 2, 4)]
     return tube(ends, rod, 5, 'iron', closed=True)
 
 
 # ---- wood and cloth ----
+
 
 def barrel():
     """Staves with a belly, sunk heads, four hoops."""
@@ -141,19 +180,37 @@ def barrel():
     body.tints = [tints[i % staves] for i in range(len(body.faces))]
     hoops = []
     for z0, z1 in ((0.015, 0.07), (0.22, 0.265), (0.655, 0.70), (0.85, 0.905)):
-        hoops.append(solid(lathe([(radius(z0) - 0.01, z0), (radius(z0) + 0.005, z0), (radius(z1) + 0.005, z1), (radius(z1) - 0.01, z1)], staves, 'iron', (0.75, 0.7, 0.66),
-                                 caps=(False, False))))
+        hoops.append(
+            solid(
+                lathe(
+                    [
+                        (radius(z0) - 0.01, z0),
+                        (radius(z0) + 0.005, z0),
+                        (radius(z1) + 0.005, z1),
+                        (radius(z1) - 0.01, z1),
+                    ],
+                    staves,
+                    'iron',
+                    (0.75, 0.7, 0.66),
+                    caps=(False, False),
+                )
+            )
+        )
     return join([body] + hoops)
 
 
 def bench():
     """A plank bench on two trestles."""
     rng = random.Random(11)
-    parts = [box((-0.9, y0, 0.43), (0.9, y0 + 0.17, 0.47), 'wood', shade(rng, 0.8), 0.006, True) for y0 in (-0.175, 0.005)]
+    parts = [
+        box((-0.9, y0, 0.43), (0.9, y0 + 0.17, 0.47), 'wood', shade(rng, 0.8), 0.006, True) for y0 in (-0.175, 0.005)
+    ]
     for x in (-0.68, 0.68):
         parts.append(box((x - 0.03, -0.16, 0.37), (x + 0.03, 0.16, 0.43), 'wood', shade(rng, 0.7), 0.006, True))
         for y in (-0.13, 0.13):
-            parts.append(box((x - 0.028, y - 0.028, 0), (x + 0.028, y + 0.028, 0.37), 'wood', shade(rng, 0.7), 0.006, True))
+            parts.append(
+                box((x - 0.028, y - 0.028, 0), (x + 0.028, y + 0.028, 0.37), 'wood', shade(rng, 0.7), 0.006, True)
+            )
     parts.append(box((-0.65, -0.02, 0.16), (0.65, 0.02, 0.22), 'wood', shade(rng, 0.7), 0.006, True))
     return join(parts)
 
@@ -169,20 +226,46 @@ def sack(seed):
         neck = 0.09 * math.cos(9 * angle) if z > 0.52 else 0.0
         return r * (squash + (wobble if z > 0.02 else 0) + neck)
 
-    profile = [(0.0, 0.0), (0.21, 0.0), (0.25, 0.03), (0.275, 0.10), (0.285, 0.18), (0.275, 0.27), (0.245, 0.37), (0.19, 0.46), (0.11, 0.525), (0.055, 0.555), (0.06, 0.575),
-               (0.10, 0.62), (0.11, 0.645), (0.07, 0.635), (0.0, 0.60)]
+    profile = [
+        (0.0, 0.0),
+        (0.21, 0.0),
+        (0.25, 0.03),
+        (0.275, 0.10),
+        (0.285, 0.18),
+        (0.275, 0.27),
+        (0.245, 0.37),
+        (0.19, 0.46),
+        (0.11, 0.525),
+        (0.055, 0.555),
+        (0.06, 0.575),
+        (0.10, 0.62),
+        (0.11, 0.645),
+        (0.07, 0.635),
+        (0.0, 0.60),
+    ]
     bag = lathe(profile, 22, 'cloth', shape=folds)
-    rope = lathe([(0.05, 0.55), (0.07, 0.552), (0.074, 0.562), (0.07, 0.572), (0.05, 0.574)], 12, 'cloth', (0.6, 0.5, 0.4))
+    rope = lathe(
+        [(0.05, 0.55), (0.07, 0.552), (0.074, 0.562), (0.07, 0.572), (0.05, 0.574)], 12, 'cloth', (0.6, 0.5, 0.4)
+    )
     return join([bag, rope])
 
 
 def book(width, depth, thick, tint):
     """A closed book lying flat: boards, a rounded spine, pages set back."""
     board = 0.004
-    cover = [box((-width / 2, -depth / 2, z), (width / 2, depth / 2, z + board), 'leather', tint) for z in (0.0, thick - board)]
-    pages = box((-width / 2 + 0.004, -depth / 2 + 0.005, board), (width / 2 - 0.006, depth / 2 - 0.005, thick - board), 'paper')
-    spine = [(-width / 2 - 0.008 * math.sin(t), thick / 2 - (thick / 2) * math.cos(t)) for t in np.linspace(0, math.pi, 7)]
-    back = prism(spine + [(-width / 2 + 0.003, thick), (-width / 2 + 0.003, 0.0)], -depth / 2, depth / 2, 'leather', tint)
+    cover = [
+        box((-width / 2, -depth / 2, z), (width / 2, depth / 2, z + board), 'leather', tint)
+        for z in (0.0, thick - board)
+    ]
+    pages = box(
+        (-width / 2 + 0.004, -depth / 2 + 0.005, board), (width / 2 - 0.006, depth / 2 - 0.005, thick - board), 'paper'
+    )
+    spine = [
+        (-width / 2 - 0.008 * math.sin(t), thick / 2 - (thick / 2) * math.cos(t)) for t in np.linspace(0, math.pi, 7)
+    ]
+    back = prism(
+        spine + [(-width / 2 + 0.003, thick), (-width / 2 + 0.003, 0.0)], -depth / 2, depth / 2, 'leather', tint
+    )
     return join(cover + [pages, back])
 
 
@@ -196,8 +279,36 @@ def lantern():
     foot = lathe([(0.0, 0.0), (0.09, 0.0), (0.10, 0.008), (0.10, 0.03), (0.08, 0.05), (0.0, 0.05)], 12, 'brass')
     core = lathe([(0.0, 0.06), (0.04, 0.07), (0.055, 0.12), (0.055, 0.22), (0.0, 0.28)], 10, 'glow')
     burner = lathe([(0.0, 0.045), (0.03, 0.045), (0.03, 0.068), (0.0, 0.068)], 12, 'brass')
-    bars = [box((-0.006, -0.006, 0.04), (0.006, 0.006, 0.30), 'brass').moved(0.085, 0, 0).turned('z', 90 * i) for i in range(4)]
-    hoops = [solid(lathe([(0.08, z), (0.094, z), (0.094, z + 0.012), (0.08, z + 0.012), (0.08, z)], 12, 'brass', caps=(False, False))) for z in (0.165,)]
-    cap = lathe([(0.0, 0.292), (0.10, 0.292), (0.104, 0.302), (0.05, 0.36), (0.035, 0.385), (0.05, 0.39), (0.03, 0.41), (0.0, 0.415)], 12, 'brass')
-    grip = tube([(0.055 * math.cos(t), 0, 0.41 + 0.055 * math.sin(t)) for t in np.linspace(0, math.pi, 7)], 0.006, 5, 'brass')
+    bars = [
+        box((-0.006, -0.006, 0.04), (0.006, 0.006, 0.30), 'brass').moved(0.085, 0, 0).turned('z', 90 * i)
+        for i in range(4)
+    ]
+    hoops = [
+        solid(
+            lathe(
+                [(0.08, z), (0.094, z), (0.094, z + 0.012), (0.08, z + 0.012), (0.08, z)],
+                12,
+                'brass',
+                caps=(False, False),
+            )
+        )
+        for z in (0.165,)
+    ]
+    cap = lathe(
+        [
+            (0.0, 0.292),
+            (0.10, 0.292),
+            (0.104, 0.302),
+            (0.05, 0.36),
+            (0.035, 0.385),
+            (0.05, 0.39),
+            (0.03, 0.41),
+            (0.0, 0.415),
+        ],
+        12,
+        'brass',
+    )
+    grip = tube(
+        [(0.055 * math.cos(t), 0, 0.41 + 0.055 * math.sin(t)) for t in np.linspace(0, math.pi, 7)], 0.006, 5, 'brass'
+    )
     return join([foot, core, burner, cap, grip] + bars + hoops)

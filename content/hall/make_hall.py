@@ -17,7 +17,7 @@ from staging import add_cameras, add_sun
 
 
 def output_path():
-    after = sys.argv[sys.argv.index('--') + 1:] if '--' in sys.argv else []
+    after = sys.argv[sys.argv.index('--') + 1 :] if '--' in sys.argv else []
     return os.path.abspath(after[0]) if after else os.path.join(HERE, 'hall.glb')
 
 

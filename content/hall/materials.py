@@ -36,7 +36,14 @@ RECIPES = [  # name, painter, pixels (rows, columns), metres (u, v), roughness, 
     ('teal', lambda r, s: tex.paint(r, s, (0.04, 0.31, 0.315)), (512, 512), (1.0, 1.0), None, None),
     ('ochre', lambda r, s: tex.paint(r, s, (0.52, 0.27, 0.055), 0.42), (256, 256), (1.0, 1.0), None, None),
     ('iron', lambda r, s: tex.metal(r, s, (0.30, 0.30, 0.31), (0.135, 0.12, 0.11)), (256, 256), (0.5, 0.5), None, None),
-    ('brass', lambda r, s: tex.metal(r, s, (0.86, 0.62, 0.27), (0.47, 0.30, 0.115)), (256, 256), (0.5, 0.5), None, None),
+    (
+        'brass',
+        lambda r, s: tex.metal(r, s, (0.86, 0.62, 0.27), (0.47, 0.30, 0.115)),
+        (256, 256),
+        (0.5, 0.5),
+        None,
+        None,
+    ),
     ('cloth', tex.cloth, (256, 256), (0.25, 0.25), 0.95, 0.0),
 ]
 
@@ -44,6 +51,7 @@ PLAIN = [('leather', (1.0, 1.0, 1.0), 0.55, 0.0), ('paper', (0.78, 0.71, 0.57), 
 
 
 # ---- Blender materials ----
+
 
 def plain(name, colour, rough, metalness):
     block, shader = shader_block(name)
@@ -119,6 +127,7 @@ def picture_node(block, image, is_data):
 
 
 # ---- pictures ----
+
 
 def srgb(linear):
     x = np.clip(linear, 0, 1)

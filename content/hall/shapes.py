@@ -48,9 +48,14 @@ class Part:
 def rotation(axis, degrees):
     """The 3 x 3 matrix of a turn about 'x', 'y' or 'z'."""
     c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
-    return np.array({'x': [[1, 0, 0], [0, c, -s], [0, s, c]],
-                     'y': [[c, 0, s], [0, 1, 0], [-s, 0, c]],
-                     'z': [[c, -s, 0], [s, c, 0], [0, 0, 1]]}[axis], float)
+    return np.array(
+        {
+            'x': [[1, 0, 0], [0, c, -s], [0, s, c]],
+            'y': [[c, 0, s], [0, 1, 0], [-s, 0, c]],
+            'z': [[c, -s, 0], [s, c, 0], [0, 0, 1]],
+        }[axis],
+        float,
+    )
 
 
 def join(parts):
@@ -103,6 +108,7 @@ def box_uv(corners):
 
 # ---- boxes and prisms ----
 
+
 def box(lo, hi, material='stone', tint=WHITE, bevel=0.0, grain=False):
     """A box, its edges cut off by `bevel`. With `grain`, u runs along the longest side (wood)."""
     lo, hi = np.array(lo, float), np.array(hi, float)
@@ -131,7 +137,7 @@ def bevelled_box(lo, hi, bevel):
         ring = [(0, 0), (1, 0), (1, 1), (0, 1)]
         for side in (0, 1):
             faces.append([index[corner_of(axis, side, b, i, c, j), axis] for i, j in ring])
-        for i, j in ring:   # the bevel along `axis` between the faces that look along b and c
+        for i, j in ring:  # the bevel along `axis` between the faces that look along b and c
             ends = [corner_of(axis, s, b, i, c, j) for s in (0, 1)]
             faces.append([index[ends[0], b], index[ends[1], b], index[ends[1], c], index[ends[0], c]])
     for corner in [(i, j, k) for i in (0, 1) for j in (0, 1) for k in (0, 1)]:
@@ -166,14 +172,16 @@ def grain_uv(corners, along):
 
 
 def prism(polygon, lo, hi, material='stone', tint=WHITE, axis='y', skip=(), caps=(True, True)):
-    """Sweeps a flat polygon, given in (x, z) for axis 'y', (y, z) for 'x', (x, y) for 'z', from lo to hi along the axis.
+    """Sweeps a flat polygon from lo to hi along the axis; it is (x, z) for axis 'y', (y, z) for 'x', (x, y) for 'z'.
 
     skip: numbers of the polygon's edges that get no wall (they meet a neighbour). caps: at lo, at hi.
     """
     polygon = [tuple(p) for p in polygon]
     n = len(polygon)
     area = sum(polygon[i][0] * polygon[(i + 1) % n][1] - polygon[(i + 1) % n][0] * polygon[i][1] for i in range(n))
-    place = {'x': lambda p, t: (t, p[0], p[1]), 'y': lambda p, t: (p[0], t, p[1]), 'z': lambda p, t: (p[0], p[1], t)}[axis]
+    place = {'x': lambda p, t: (t, p[0], p[1]), 'y': lambda p, t: (p[0], t, p[1]), 'z': lambda p, t: (p[0], p[1], t)}[
+        axis
+    ]
     points = [place(p, lo) for p in polygon] + [place(p, hi) for p in polygon]
     faces = [(i, (i + 1) % n, n + (i + 1) % n, n + i) for i in range(n) if i not in skip]
     faces += [tuple(range(n))[::-1]] if caps[0] else []
@@ -183,6 +191,7 @@ def prism(polygon, lo, hi, material='stone', tint=WHITE, axis='y', skip=(), caps
 
 
 # ---- surfaces of rings ----
+
 
 def rings(loops, material='stone', tint=WHITE, around=True, ends=(False, False), uvs=None):
     """Skins loops of equally many points. A loop of one repeated point becomes a pole. ends: close first, last."""
@@ -216,11 +225,13 @@ def clean_face(corners):
 
 
 def lathe(profile, segments=24, material='stone', tint=WHITE, shape=None, phase=0.0, caps=(True, True)):
-    """Turns a profile of (radius, z), bottom to top outside, about Z. shape(angle, radius, z) -> radius may carve it."""
+    """Turns a profile of (radius, z), bottom to top outside, about Z; shape(angle, radius, z) gives a carved radius."""
     angles = [2 * math.pi * (i + phase) / segments for i in range(segments)]
     radius = shape or (lambda angle, r, z: r)
-    loops = [[(radius(a, r, z) * math.cos(a), radius(a, r, z) * math.sin(a), z) if r > 0 else (0, 0, z) for a in angles]
-             for r, z in profile]
+    loops = [
+        [(radius(a, r, z) * math.cos(a), radius(a, r, z) * math.sin(a), z) if r > 0 else (0, 0, z) for a in angles]
+        for r, z in profile
+    ]
     lengths = np.concatenate([[0], np.cumsum([math.dist(a, b) for a, b in zip(profile, profile[1:])])])
     round_length = 2 * math.pi * max(r for r, _ in profile)
     uvs = lambda ring, i: (round_length * i / segments, float(lengths[ring]))
@@ -236,11 +247,14 @@ def square_lathe(profile, material='stone', tint=WHITE, caps=(True, True)):
 def sweep(profile, frames, material='stone', tint=WHITE, closed=False):
     """Carries a closed profile of (a, b) along frames (origin, axis of a, axis of b); closed: the way is a ring."""
     loops = [[np.array(o) + a * np.array(ex) + b * np.array(ey) for a, b in profile] for o, ex, ey in frames]
-    girth = np.concatenate([[0], np.cumsum([math.dist(profile[i], profile[(i + 1) % len(profile)])
-                                            for i in range(len(profile))])])
+    girth = np.concatenate(
+        [[0], np.cumsum([math.dist(profile[i], profile[(i + 1) % len(profile)]) for i in range(len(profile))])]
+    )
     if closed:
         loops.append(loops[0])
-    way = np.concatenate([[0], np.cumsum([np.linalg.norm(np.mean(b, 0) - np.mean(a, 0)) for a, b in zip(loops, loops[1:])])])
+    way = np.concatenate(
+        [[0], np.cumsum([np.linalg.norm(np.mean(b, 0) - np.mean(a, 0)) for a, b in zip(loops, loops[1:])])]
+    )
     out = rings(loops, material, tint, ends=(not closed, not closed), uvs=lambda r, i: (float(way[r]), float(girth[i])))
     return solid(welded(out) if closed else out)
 
@@ -277,8 +291,10 @@ def line_frames(a, b, up=(0, 0, 1)):
 
 
 def circle(radius, count, phase=0.5):
-    return [(radius * math.cos(2 * math.pi * (i + phase) / count), radius * math.sin(2 * math.pi * (i + phase) / count))
-            for i in range(count)]
+    return [
+        (radius * math.cos(2 * math.pi * (i + phase) / count), radius * math.sin(2 * math.pi * (i + phase) / count))
+        for i in range(count)
+    ]
 
 
 def tube(path, radius, segments=10, material='iron', tint=WHITE, closed=False):
@@ -306,7 +322,7 @@ def rounded_path(points, radius, steps=4):
     for a, b, c in zip(points, points[1:], points[2:]):
         u, v = (a - b) / np.linalg.norm(a - b), (c - b) / np.linalg.norm(c - b)
         p, q = b + u * radius, b + v * radius
-        out += [(1 - t) ** 2 * p + 2 * t * (1 - t) * b + t ** 2 * q for t in np.linspace(0, 1, steps + 1)]
+        out += [(1 - t) ** 2 * p + 2 * t * (1 - t) * b + t**2 * q for t in np.linspace(0, 1, steps + 1)]
     return out + [points[-1]]
 
 
@@ -324,4 +340,6 @@ def cylinder(radius, lo, hi, segments=16, material='iron', tint=WHITE, axis='z',
 def ring_prism(outer, inner, lo, hi, material='iron', tint=WHITE):
     """A plate along z with a hole: both outlines have equally many (x, y) points, counter-clockwise."""
     at = lambda loop, z: [(x, y, z) for x, y in loop]
-    return solid(welded(rings([at(outer, lo), at(outer, hi), at(inner, hi), at(inner, lo), at(outer, lo)], material, tint)))
+    return solid(
+        welded(rings([at(outer, lo), at(outer, hi), at(inner, hi), at(inner, lo), at(outer, lo)], material, tint))
+    )

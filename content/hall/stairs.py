@@ -1,8 +1,6 @@
 """The stairs: one flight up from the nave to the landing, two from there to the galleries."""
-import math
-import numpy as np
-from plan import *
-from architecture import BALUSTER, pedestal
+from plan import HALF_LENGTH, ARCADE_Y, ARCADE_HALF, RISER, STEPS, LANDING, LANDING_X, LANDING_HALF
+from architecture import BALUSTER
 from shapes import box, join, lathe, prism, square_lathe, sweep, line_frames
 
 
@@ -27,21 +25,41 @@ def step_tint(i):
 
 
 def string_and_rail(tread, foot, y):
-    """A solid string beside the steps with balusters and a sloping handrail on it, newels at both ends."""
-    run, rise = (STEPS - 1) * tread, STEPS * RISER
+    """A solid string beside the steps with balusters and a sloping handrail on it."""
+    run = (STEPS - 1) * tread
     slope = RISER / tread
     half = 0.12
     top = lambda x: foot + RISER + slope * x + 0.10
     outline = [(-0.12, -0.05), (run + 0.05, -0.05), (run + 0.05, top(run + 0.05)), (-0.12, top(-0.12))]
     string = prism(outline, y - half, y + half, 'ashlar')
-    coping = slanted([(-0.14, -0.02), (0.14, -0.02), (0.14, 0.02), (0.11, 0.05), (-0.11, 0.05), (-0.14, 0.02)], (-0.1, top(-0.1)), (run + 0.04, top(run + 0.04)), y)
+    coping = slanted(
+        [(-0.14, -0.02), (0.14, -0.02), (0.14, 0.02), (0.11, 0.05), (-0.11, 0.05), (-0.14, 0.02)],
+        (-0.1, top(-0.1)),
+        (run + 0.04, top(run + 0.04)),
+        y,
+    )
     lift = 0.66
-    rail = slanted([(-0.09, 0.0), (0.09, 0.0), (0.12, 0.04), (0.12, 0.08), (0.08, 0.12), (-0.08, 0.12), (-0.12, 0.08), (-0.12, 0.04)],
-                   (-0.05, top(-0.05) + lift), (run + 0.05, top(run + 0.05) + lift), y)
+    rail = slanted(
+        [
+            (-0.09, 0.0),
+            (0.09, 0.0),
+            (0.12, 0.04),
+            (0.12, 0.08),
+            (0.08, 0.12),
+            (-0.08, 0.12),
+            (-0.12, 0.08),
+            (-0.12, 0.04),
+        ],
+        (-0.05, top(-0.05) + lift),
+        (run + 0.05, top(run + 0.05) + lift),
+        y,
+    )
     parts = [string, coping, rail]
     for i in range(1, STEPS - 1):
         x = (i + 0.0) * tread
-        parts.append(lathe(BALUSTER, 6, 'stone', phase=0.5, caps=(False, False)).stretched(1, 1, 1.08).moved(x, y, top(x) + 0.01))
+        parts.append(
+            lathe(BALUSTER, 6, 'stone', phase=0.5, caps=(False, False)).stretched(1, 1, 1.08).moved(x, y, top(x) + 0.01)
+        )
     return join(parts)
 
 
@@ -52,13 +70,21 @@ def slanted(profile, start, stop, y):
 
 def newel(height):
     """A square post with a moulded cap; lanterns stand on it. Its foot is at the origin."""
-    profile = [(0.24, -0.05), (0.24, 0.16), (0.20, 0.21), (0.20, height - 0.18), (0.225, height - 0.15), (0.25, height - 0.08), (0.25, height - 0.03),
-               (0.22, height)]
+    profile = [
+        (0.24, -0.05),
+        (0.24, 0.16),
+        (0.20, 0.21),
+        (0.20, height - 0.18),
+        (0.225, height - 0.15),
+        (0.25, height - 0.08),
+        (0.25, height - 0.03),
+        (0.22, height),
+    ]
     return square_lathe(profile, caps=(False, True))
 
 
 def stairs():
-    """All flights and the landing, in hall coordinates. The newels' tops are level with NEWEL_TOPS."""
+    """All flights and the landing, in hall coordinates."""
     main_tread, side_tread = 0.30, (ARCADE_Y - ARCADE_HALF - 0.21 - LANDING_HALF) / (STEPS - 1)
     main_x = LANDING_X - (STEPS - 1) * main_tread
     parts = [flight(main_tread, 1.3, 0.0).moved(main_x)]
@@ -68,9 +94,15 @@ def stairs():
         parts.append(newel(LANDING + 1.12).moved(LANDING_X + 0.02, side * 1.40))
     middle = (LANDING_X + HALF_LENGTH) / 2
     half = (HALF_LENGTH - LANDING_X) / 2
-    parts.append(box((LANDING_X, -LANDING_HALF - 0.01, -0.05), (HALF_LENGTH, LANDING_HALF + 0.01, LANDING - 0.045), 'stone'))
-    parts.append(box((LANDING_X, -LANDING_HALF, LANDING - 0.045), (HALF_LENGTH, LANDING_HALF, LANDING), 'marble', step_tint(1)))
+    parts.append(
+        box((LANDING_X, -LANDING_HALF - 0.01, -0.05), (HALF_LENGTH, LANDING_HALF + 0.01, LANDING - 0.045), 'stone')
+    )
+    parts.append(
+        box((LANDING_X, -LANDING_HALF, LANDING - 0.045), (HALF_LENGTH, LANDING_HALF, LANDING), 'marble', step_tint(1))
+    )
     for side in (-1, 1):
-        climb = join([flight(side_tread, half, LANDING), string_and_rail(side_tread, LANDING, half if side > 0 else -half)])
+        climb = join(
+            [flight(side_tread, half, LANDING), string_and_rail(side_tread, LANDING, half if side > 0 else -half)]
+        )
         parts.append(climb.turned('z', 90 * side).moved(middle, side * LANDING_HALF))
     return join(parts)

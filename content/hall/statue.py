@@ -1,12 +1,12 @@
 """The owl: a body of revolution whose surface is carved by functions of angle and height, and its plinth; urns."""
 import math
 import numpy as np
-from shapes import box, join, lathe, make, rings, solid, square_lathe
+from shapes import box, join, lathe, rings, solid, square_lathe
 
-AROUND, UP = 100, 71      # the body's grid
+AROUND, UP = 112, 76  # the body's grid
 HEIGHT = 1.20
 EYE_ANGLE, EYE_V = 0.47, 0.795
-OWL_TINT = (0.86, 0.66, 0.50)            # a redder stone than the plinth's
+OWL_TINT = (0.86, 0.66, 0.50)  # a redder stone than the plinth's
 
 
 def bump(x, width):
@@ -17,8 +17,21 @@ def bump(x, width):
 
 def outline(v):
     """The owl's radius by height v in [0, 1]: belly, neck, head, crown."""
-    keys = [(0.0, 0.20), (0.05, 0.235), (0.15, 0.285), (0.30, 0.325), (0.45, 0.325), (0.57, 0.285), (0.65, 0.252), (0.71, 0.258), (0.79, 0.278), (0.87, 0.258), (0.94, 0.19),
-            (0.98, 0.11), (1.0, 0.0)]
+    keys = [
+        (0.0, 0.20),
+        (0.05, 0.235),
+        (0.15, 0.285),
+        (0.30, 0.325),
+        (0.45, 0.325),
+        (0.57, 0.285),
+        (0.65, 0.252),
+        (0.71, 0.258),
+        (0.79, 0.278),
+        (0.87, 0.258),
+        (0.94, 0.19),
+        (0.98, 0.11),
+        (1.0, 0.0),
+    ]
     xs, ys = zip(*keys)
     fine = np.linspace(0, 1, 401)
     smooth = np.convolve(np.pad(np.interp(fine, xs, ys), 10, 'edge'), np.ones(21) / 21, 'valid')
@@ -39,14 +52,18 @@ def feathers(angle, height, across, down, depth):
 
 
 def carve(angle, v):
-    """What is added to the radius: wings, feathers, face discs, brows. angle 0 is the front (+x)."""
+    """What is added to the radius: wings, feathers, face discs. angle 0 is the front (+x)."""
     a = (angle + math.pi) % (2 * math.pi) - math.pi
     z = v * HEIGHT
     wing_line = 0.86 + 0.55 * np.clip(0.62 - v, 0, 1)
-    wing = np.clip((np.abs(a) - wing_line) / 0.10, 0, 1) * np.clip((0.64 - v) / 0.05, 0, 1) * np.clip((v - 0.10) / 0.05, 0, 1)
+    wing = (
+        np.clip((np.abs(a) - wing_line) / 0.10, 0, 1)
+        * np.clip((0.64 - v) / 0.05, 0, 1)
+        * np.clip((v - 0.10) / 0.05, 0, 1)
+    )
     head = np.clip((v - 0.655) / 0.03, 0, 1)
-    breast = feathers(a, z, 0.235, 0.062, 0.016) * (1 - wing) * (1 - head)
-    coverts = feathers(a, z, 0.20, 0.085, 0.020)
+    breast = feathers(a, z, 0.27, 0.078, 0.022) * (1 - wing) * (1 - head)
+    coverts = feathers(a, z, 0.25, 0.095, 0.024)
     quills = 0.016 * np.abs(np.sin((np.abs(a) * 1.0 + 0.35 * v) * 13.0)) * np.clip((0.36 - v) / 0.06, 0, 1)
     pinion = np.clip((v - 0.33) / 0.05, 0, 1)
     out = breast + wing * (0.030 + coverts * pinion + quills)
@@ -54,24 +71,24 @@ def carve(angle, v):
 
 
 def face(a, z, v):
-    """Two dished discs rayed like the sun, brows that rise to the ears."""
-    crown = feathers(a, z, 0.26, 0.05, 0.009) * np.clip((np.abs(a) - 0.95) / 0.15, 0, 1)
+    """Two dished discs rayed like the sun; feathers on the rest of the head."""
+    crown = feathers(a, z, 0.30, 0.06, 0.010) * np.clip((np.abs(a) - 0.95) / 0.15, 0, 1)
     total = crown
     eye_z = EYE_V * HEIGHT
     for side in (-1, 1):
         du, dz = (a - side * EYE_ANGLE) * 0.27, z - eye_z
         r = np.hypot(du, dz)
         around = np.arctan2(dz, du)
-        dish = -0.030 * bump(r, 0.12) + 0.026 * bump(r - 0.122, 0.022)
-        rays = 0.007 * np.cos(18 * around) * bump(r - 0.08, 0.04)
-        total = total + np.where(np.abs(a) < 1.1, dish + rays, 0)
-        brow = bump(dz - 0.085 - 0.16 * np.clip(np.abs(du + side * 0.127) - 0.0, 0, 0.4), 0.032) * (np.abs(a) < 0.95) * (side * a > 0)
-        total = total + 0.042 * brow
+        dish = -0.024 * bump(r, 0.13) + 0.020 * bump(r - 0.125, 0.036)
+        rays = 0.007 * np.cos(12 * around) * bump(r - 0.088, 0.034)
+        total = total + (dish + rays) * np.clip((1.25 - np.abs(a)) / 0.2, 0, 1) * (side * a > -0.1)
     return total
 
 
 def owl_body():
-    v = np.concatenate([np.linspace(0, 0.64, int(UP * 0.58), endpoint=False), np.linspace(0.64, 1.0, UP - int(UP * 0.58))])
+    v = np.concatenate(
+        [np.linspace(0, 0.64, int(UP * 0.58), endpoint=False), np.linspace(0.64, 1.0, UP - int(UP * 0.58))]
+    )
     angles = 2 * np.pi * np.arange(AROUND) / AROUND
     # the front gets more columns than the back: the face is there
     angles = angles - 0.42 * np.sin(angles)
@@ -81,7 +98,9 @@ def owl_body():
         fade = np.clip((1 - value) / 0.06, 0, 1)
         r = np.where(value > 0.94, outline(value) + (r - outline(value)) * fade, r)
         lean = 0.02 * math.sin(math.pi * value)
-        loops.append(np.stack([r * np.cos(angles) * 0.93 + lean, r * np.sin(angles), np.full(AROUND, value * HEIGHT)], -1))
+        loops.append(
+            np.stack([r * np.cos(angles) * 0.93 + lean, r * np.sin(angles), np.full(AROUND, value * HEIGHT)], -1)
+        )
     return solid(rings(loops, 'stone', ends=(True, False)))
 
 
@@ -91,7 +110,14 @@ def ear(side):
     for t in np.linspace(0, 1, 7):
         r = 0.085 * (1 - t) ** 0.75
         centre = np.array([0.06 - 0.05 * t * t, side * (0.135 + 0.075 * t), 1.04 + 0.32 * t])
-        ring = [(centre[0] + r * 0.7 * (1 + 0.14 * math.cos(5 * a)) * math.cos(a), centre[1] + r * math.sin(a), centre[2] - 0.25 * r * math.cos(a)) for a in np.linspace(0, 2 * np.pi, n + 1)[:-1]]
+        ring = [
+            (
+                centre[0] + r * 0.7 * (1 + 0.14 * math.cos(5 * a)) * math.cos(a),
+                centre[1] + r * math.sin(a),
+                centre[2] - 0.25 * r * math.cos(a),
+            )
+            for a in np.linspace(0, 2 * np.pi, n + 1)[:-1]
+        ]
         loops.append(ring)
     return solid(rings(loops, 'stone', ends=(True, False)))
 
@@ -105,8 +131,37 @@ def on_face(part, angle, v, out):
 
 def eye(side):
     """A ringed ball with a drilled pupil."""
-    profile = [(0.066, -0.03), (0.066, 0.004), (0.058, 0.014), (0.049, 0.008), (0.047, 0.014), (0.040, 0.030), (0.028, 0.040), (0.019, 0.043), (0.016, 0.028), (0.0, 0.026)]
+    profile = [
+        (0.066, -0.03),
+        (0.066, 0.004),
+        (0.058, 0.014),
+        (0.049, 0.008),
+        (0.047, 0.014),
+        (0.040, 0.030),
+        (0.028, 0.040),
+        (0.019, 0.043),
+        (0.016, 0.028),
+        (0.0, 0.026),
+    ]
     return on_face(lathe(profile, 20, 'stone', caps=(False, False)), side * EYE_ANGLE, EYE_V, -0.002)
+
+
+def brow(side):
+    """A heavy brow from the beak's root over the eye to the ear, thickest in its middle."""
+    loops = []
+    for t in np.linspace(0, 1, 9):
+        angle, v = side * (0.10 + 0.72 * t), EYE_V + 0.028 + 0.075 * t**1.3
+        r = float(outline(v)) + 0.004
+        middle = np.array([r * math.cos(angle) * 0.93 + 0.012, r * math.sin(angle), v * HEIGHT])
+        out = np.array([math.cos(angle), math.sin(angle), 0.0])
+        thick = 0.006 + 0.026 * math.sin(math.pi * (0.12 + 0.8 * t))
+        loops.append(
+            [
+                middle + out * thick * 1.3 * math.cos(a) + np.array([0, 0, 0.75 * thick * math.sin(a)])
+                for a in np.linspace(0, 2 * np.pi, 9)[:-1]
+            ]
+        )
+    return solid(rings(loops, 'stone', ends=(True, True)))
 
 
 def beak():
@@ -116,7 +171,16 @@ def beak():
         half, out = 0.046 * (1 - t) ** 0.7, 0.03 + 0.075 * math.sin(math.pi * min(1.0, 0.25 + 0.68 * t)) - 0.03 * t
         z = EYE_V * HEIGHT + 0.035 - 0.155 * t
         front = float(outline(z / HEIGHT)) * 0.93 + 0.012
-        loops.append([(front - 0.04 + (0.04 + out) * max(0.0, math.cos(a)) ** 0.8 * (1 if t < 1 else 0), half * math.sin(a), z) for a in np.linspace(-np.pi / 2, np.pi / 2, 9)])
+        loops.append(
+            [
+                (
+                    front - 0.04 + (0.04 + out) * max(0.0, math.cos(a)) ** 0.8 * (1 if t < 1 else 0),
+                    half * math.sin(a),
+                    z,
+                )
+                for a in np.linspace(-np.pi / 2, np.pi / 2, 9)
+            ]
+        )
     return solid(rings(loops, 'stone', ends=(True, False)))
 
 
@@ -125,42 +189,116 @@ def toe(x, y, heading, length):
     loops = []
     for t in np.linspace(0, 1, 9):
         r = (0.034 + 0.007 * math.cos(t * 3 * 2 * math.pi)) * (1 - 0.75 * max(0.0, t - 0.7) / 0.3) if t < 1 else 0.0
-        loops.append([(length * t, r * math.cos(a), max(-0.02, 0.030 * (1 - 0.7 * t) + r * math.sin(a))) for a in np.linspace(0, 2 * np.pi, 9)[:-1]])
+        loops.append(
+            [
+                (length * t, r * math.cos(a), max(-0.02, 0.030 * (1 - 0.7 * t) + r * math.sin(a)))
+                for a in np.linspace(0, 2 * np.pi, 9)[:-1]
+            ]
+        )
     out = solid(rings(loops, 'stone', ends=(True, False)))
     return out.turned('z', heading).moved(x, y, 0.02)
 
 
 def owl():
     """The owl on its round base; faces +x, stands on z = 0."""
-    base = lathe([(0.0, 0.0), (0.35, 0.0), (0.36, 0.012), (0.36, 0.05), (0.345, 0.065), (0.33, 0.07), (0.33, 0.085), (0.0, 0.085)], 40, 'stone')
+    base = lathe(
+        [
+            (0.0, 0.0),
+            (0.35, 0.0),
+            (0.36, 0.012),
+            (0.36, 0.05),
+            (0.345, 0.065),
+            (0.33, 0.07),
+            (0.33, 0.085),
+            (0.0, 0.085),
+        ],
+        40,
+        'stone',
+    )
     lift = 0.10
     parts = [base, owl_body().moved(0, 0, lift), ear(1).moved(0, 0, lift), ear(-1).moved(0, 0, lift)]
     for side in (-1, 1):
-        parts += [toe(0.16, side * 0.105, heading, 0.15).moved(0, 0, 0.075) for heading in (-22 + 6 * side, 6 * side, 22 + 6 * side)]
-    parts += [p.moved(0, 0, lift) for p in [beak(), eye(1), eye(-1)]]
+        parts += [
+            toe(0.16, side * 0.105, heading, 0.15).moved(0, 0, 0.075)
+            for heading in (-22 + 6 * side, 6 * side, 22 + 6 * side)
+        ]
+    parts += [p.moved(0, 0, lift) for p in [beak(), eye(1), eye(-1), brow(1), brow(-1)]]
     return join(parts).painted('stone', OWL_TINT)
 
 
 def plinth():
     """A square pedestal with mouldings and sunk panels, 0.86 m high."""
-    body = square_lathe([(0.46, 0.0), (0.46, 0.10), (0.435, 0.125), (0.42, 0.16), (0.375, 0.19), (0.365, 0.22), (0.365, 0.66), (0.385, 0.68), (0.385, 0.71), (0.42, 0.76), (0.45, 0.78), (0.45, 0.84),
-                         (0.435, 0.855), (0.435, 0.86)], 'stone')
+    body = square_lathe(
+        [
+            (0.46, 0.0),
+            (0.46, 0.10),
+            (0.435, 0.125),
+            (0.42, 0.16),
+            (0.375, 0.19),
+            (0.365, 0.22),
+            (0.365, 0.66),
+            (0.385, 0.68),
+            (0.385, 0.71),
+            (0.42, 0.76),
+            (0.45, 0.78),
+            (0.45, 0.84),
+            (0.435, 0.855),
+            (0.435, 0.86),
+        ],
+        'stone',
+    )
     frames = []
     for turn in range(4):
-        for lo, hi in (((-0.28, -0.378, 0.27), (0.28, -0.36, 0.31)), ((-0.28, -0.378, 0.57), (0.28, -0.36, 0.61)), ((-0.28, -0.378, 0.31), (-0.24, -0.36, 0.57)), ((0.24, -0.378, 0.31), (0.28, -0.36, 0.57))):
+        for lo, hi in (
+            ((-0.28, -0.378, 0.27), (0.28, -0.36, 0.31)),
+            ((-0.28, -0.378, 0.57), (0.28, -0.36, 0.61)),
+            ((-0.28, -0.378, 0.31), (-0.24, -0.36, 0.57)),
+            ((0.24, -0.378, 0.31), (0.28, -0.36, 0.57)),
+        ):
             frames.append(box(lo, hi, 'stone', bevel=0.006).turned('z', 90 * turn))
-        boss = lathe([(0.09, -0.01), (0.09, 0.008), (0.06, 0.02), (0.03, 0.012), (0.0, 0.022)], 16, 'stone', shape=lambda a, r, z: r * (1 + 0.12 * math.cos(8 * a)) if r > 0.05 else r,
-                     caps=(False, False))
+        boss = lathe(
+            [(0.09, -0.01), (0.09, 0.008), (0.06, 0.02), (0.03, 0.012), (0.0, 0.022)],
+            16,
+            'stone',
+            shape=lambda a, r, z: r * (1 + 0.12 * math.cos(8 * a)) if r > 0.05 else r,
+            caps=(False, False),
+        )
         frames.append(boss.turned('x', 90).moved(0, -0.365, 0.44).turned('z', 90 * turn))
     return join([body] + frames)
 
 
 def urn():
     """A fluted urn for the niches, 0.78 m high."""
+
     def flutes(angle, r, z):
         low = max(0.0, 1 - abs(z - 0.30) / 0.12)
         frieze = 1.0 if 0.45 < z < 0.56 else 0.0
         return r * (1 + 0.05 * low * abs(math.cos(6 * angle)) + 0.03 * frieze * math.cos(12 * angle))
-    profile = [(0.0, 0.0), (0.15, 0.0), (0.16, 0.015), (0.155, 0.04), (0.09, 0.07), (0.06, 0.12), (0.075, 0.15), (0.06, 0.17), (0.10, 0.205), (0.18, 0.25), (0.225, 0.31), (0.245, 0.38), (0.245, 0.43), (0.235, 0.44),
-               (0.235, 0.46), (0.24, 0.50), (0.235, 0.55), (0.21, 0.57), (0.16, 0.60), (0.14, 0.64), (0.16, 0.69), (0.205, 0.72), (0.21, 0.74), (0.19, 0.745), (0.13, 0.66), (0.0, 0.60)]
+
+    profile = [
+        (0.0, 0.0),
+        (0.15, 0.0),
+        (0.16, 0.015),
+        (0.155, 0.04),
+        (0.09, 0.07),
+        (0.06, 0.12),
+        (0.075, 0.15),
+        (0.10, 0.205),
+        (0.18, 0.25),
+        (0.225, 0.31),
+        (0.245, 0.38),
+        (0.245, 0.43),
+        (0.232, 0.45),
+        (0.24, 0.50),
+        (0.235, 0.55),
+        (0.21, 0.57),
+        (0.16, 0.60),
+        (0.14, 0.64),
+        (0.16, 0.69),
+        (0.205, 0.72),
+        (0.21, 0.74),
+        (0.19, 0.745),
+        (0.13, 0.66),
+        (0.0, 0.60),
+    ]
     return lathe(profile, 24, 'stone', shape=flutes)

@@ -6,11 +6,13 @@ def noise(rng, size, cells):
     """Smooth periodic noise in [0, 1]: random values on a cells x cells torus, cubic steps in between."""
     cells_y, cells_x = cells if isinstance(cells, tuple) else (cells, cells)
     grid = rng.random((cells_y, cells_x))
+
     def weights(n, count):
         t = np.arange(n) * count / n
         i = np.floor(t).astype(int)
         f = t - i
         return i % count, (i + 1) % count, f * f * (3 - 2 * f)
+
     y0, y1, fy = weights(size[0], cells_y)
     x0, x1, fx = weights(size[1], cells_x)
     fy, fx = fy[:, None], fx[None, :]
@@ -99,10 +101,10 @@ def wood(rng, size):
     rows, columns = size
     wave = clouds(rng, size, (4, 2), 3)
     v = np.arange(rows)[:, None] / rows
-    bands = 0.5 + 0.5 * np.sin(2 * np.pi * (9 * v + 3.2 * wave))
+    bands = 0.5 + 0.5 * np.sin(2 * np.pi * (15 * v + 2.6 * wave))
     fibre = clouds(rng, size, (96, 3), 3)
-    tone = 0.55 * bands + 0.45 * fibre
-    colour = mix((0.60, 0.385, 0.205), (0.335, 0.185, 0.085), step(tone, 0.2, 0.85))
+    tone = 0.30 * bands + 0.70 * fibre
+    colour = mix((0.60, 0.395, 0.215), (0.37, 0.215, 0.105), step(tone, 0.15, 0.9))
     pore = step(clouds(rng, size, (128, 6), 2), 0.62, 0.8)
     return colour * (1 - 0.35 * pore)[..., None], 0.0015 * tone - 0.0015 * pore
 
