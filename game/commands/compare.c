@@ -3,6 +3,7 @@
 #include "game/commands/commands.h"
 #include "game/compare/camera.h"
 #include "game/compare/options.h"
+#include "game/compare/output.h"
 #include "game/compare/report.h"
 #include "game/compare/run.h"
 #include "game/exposure.h"
@@ -88,7 +89,7 @@ static nook_result compare(nook_stage *stage, const nook_compare_options *option
         result = nook_camera_choose(stage->scene, options->camera, (double)stage->width / stage->height, out_camera,
                                     label, sizeof label);
     if (result == NOOK_OK)
-        result = nook_report_prepare(options->out);
+        result = nook_output_prepare(options->out);
     if (result != NOOK_OK)
         return result;
     double r_max;

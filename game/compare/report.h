@@ -10,10 +10,11 @@ typedef struct nook_report {
     const char *out;        /**< The folder. */
 } nook_report;
 
-/** Makes the folder and tries that it can be written to. @return NOOK_E_IO */
-nook_result nook_report_prepare(const char *out);
-
-/** Writes every picture and compare.json, each whole or not at all. @return NOOK_E_IO, NOOK_E_MEMORY, NOOK_E_NOT_FOUND */
+/**
+ * Writes every picture and compare.json, all of them or none; pictures of the run before that this one has not are removed.
+ * Told to end (Ctrl-C) it leaves the folder as it was.
+ * @return NOOK_E_IO, NOOK_E_MEMORY, NOOK_E_NOT_FOUND
+ */
 nook_result nook_report_write(const nook_report *report);
 
 /** compare.json. @param out_text  owned by the caller, release with free() @return NOOK_E_MEMORY */

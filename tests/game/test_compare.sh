@@ -141,6 +141,26 @@ test_an_output_folder_that_cannot_be_written_is_refused_before_the_work() {
     [ "$(cat "$tmp/in the way")" = 'a file' ]
 }
 
+test_a_second_run_replaces_the_first_one_whole() {
+    compare_crate --out "$tmp/again" --techniques volume,ssao
+    printf 'mine' >"$tmp/again/notes.png"
+    compare "$crate" --size 48x32 --frames 1 --reference-rays 4 --out "$tmp/again" --techniques hsao
+    [ "$(png_size "$tmp/again/hsao.png")" = '48 x 32' ]
+    [ -z "$(find "$tmp/again" -name '*volume*' -o -name '*ssao*')" ]
+    [ "$(cat "$tmp/again/notes.png")" = mine ]
+    [ "$(find "$tmp/again" -mindepth 1 | wc -l)" -eq $((1 + 2 * 3 + 1 + 2)) ]
+}
+
+test_a_run_that_fails_leaves_the_files_of_the_one_before() {
+    compare_crate --out "$tmp/kept" --techniques ssao
+    local before
+    before=$(cd "$tmp/kept" && sha256sum ./*)
+    mkdir "$tmp/kept/hsao.pfm"
+    assert_holds "$(assert_fails 1 compare_crate --out "$tmp/kept" --techniques hsao)" hsao.pfm
+    rmdir "$tmp/kept/hsao.pfm"
+    [ "$(cd "$tmp/kept" && sha256sum ./*)" = "$before" ]
+    [ -z "$(find "$tmp/kept" -name '.*' -type d)" ]
+}
 
 test_one_pixel_is_a_picture() {
     compare "$crate" --size 1x1 --frames 1 --reference-rays 4 --camera 1,2,3,0,0,0,40 --out "$tmp/one"
