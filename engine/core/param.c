@@ -1,5 +1,6 @@
 #include "engine/core/param.h"
 #include "engine/core/log.h"
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -32,10 +33,18 @@ void nook_param_reset(const nook_param *table, size_t count, void *block)
         store(&table[i], block, table[i].initial);
 }
 
+/** A float parameter is held to the floats nearest to its bounds: what it can store, 0.99 say, is itself a little off. */
+static int in_range(const nook_param *param, double value)
+{
+    if (param->type == NOOK_PARAM_FLOAT && fabs(value) <= (double)FLT_MAX)
+        return (float)value >= (float)param->lowest && (float)value <= (float)param->highest;
+    return value >= param->lowest && value <= param->highest;
+}
+
 nook_result nook_param_set(const nook_param *param, const char *owner, void *block, double value)
 {
     int whole = param->type == NOOK_PARAM_FLOAT || value == floor(value);
-    if (!(value >= param->lowest && value <= param->highest) || !whole)
+    if (!in_range(param, value) || !whole)
         return nook_fail(NOOK_E_RANGE, "%s.%s = %g: give %s from %g to %g", owner, param->name, value,
                          param->type == NOOK_PARAM_FLOAT ? "a number" : "a whole number", param->lowest,
                          param->highest);
@@ -87,7 +96,11 @@ double nook_param_get(const nook_param *param, const void *block)
 
 const char *nook_param_print(const nook_param *param, const void *block, char *out, size_t capacity)
 {
-    double value = nook_param_get(param, block);
+    return nook_param_print_value(param, nook_param_get(param, block), out, capacity);
+}
+
+const char *nook_param_print_value(const nook_param *param, double value, char *out, size_t capacity)
+{
     if (param->type != NOOK_PARAM_CHOICE) {
         snprintf(out, capacity, "%g", value);
         return out;

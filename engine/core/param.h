@@ -38,7 +38,7 @@ void nook_param_reset(const nook_param *table, size_t count, void *block);
 /**
  * Sets one parameter.
  * @param owner  used in the message only ("volume" in "volume.rays")
- * @return NOOK_E_RANGE outside [lowest, highest], not finite, or not whole for an int or choice; the old value stays
+ * @return NOOK_E_RANGE outside [lowest, highest] (for a float: of the floats nearest to them), not finite, or not whole for an int or choice; the old value stays
  */
 nook_result nook_param_set(const nook_param *param, const char *owner, void *block, double value);
 
@@ -48,6 +48,8 @@ nook_result nook_param_parse(const nook_param *param, const char *owner, void *b
 double nook_param_get(const nook_param *param, const void *block);
 /** The value as text: a number, or the name of the choice. @return out */
 const char *nook_param_print(const nook_param *param, const void *block, char *out, size_t capacity);
+/** The same for a value that nook_param_get gave. @return out */
+const char *nook_param_print_value(const nook_param *param, double value, char *out, size_t capacity);
 /** "metre", "pixel", "" ... */
 const char *nook_unit_name(nook_unit unit);
 

@@ -17,12 +17,7 @@ static double param_value(const nook_ao *ao, const char *technique, const nook_p
 const char *nook_report_param(const nook_ao *ao, const char *technique, const nook_param *param, char *out,
                               size_t capacity)
 {
-    /* nook_param_print reads from a parameter struct: give it one of this parameter alone. */
-    nook_param alone = *param;
-    int32_t block = 0;
-    alone.offset = 0;
-    nook_param_set(&alone, technique, &block, param_value(ao, technique, param));
-    return nook_param_print(&alone, &block, out, capacity);
+    return nook_param_print_value(param, param_value(ao, technique, param), out, capacity);
 }
 
 static void write_param(nook_json *json, const nook_ao *ao, const char *technique, const nook_param *param)

@@ -4,6 +4,7 @@
 #include "tests/support/ao_view.h"
 #include "tests/support/log_capture.h"
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -69,6 +70,37 @@ static void test_settings_list_the_parameters_when_a_name_is_unknown(void **stat
     EXPECT_REFUSED(nook_ao_parse_param(ao, "ao.radius", "1"), NOOK_E_NOT_FOUND, "r_max, falloff, falloff_tau, scale");
     EXPECT_REFUSED(nook_ao_get_param(ao, "ssao.", &value), NOOK_E_NOT_FOUND, "samples, kernel, bias");
     assert_true(value == 4711.0);
+}
+
+/** Sets a parameter to a bound, and then to what it says it is. */
+static void check_bound(nook_ao *ao, const char *owner, const nook_param *param, double bound)
+{
+    char name[64];
+    snprintf(name, sizeof name, "%s.%s", owner, param->name);
+    double before = value_of(ao, name);
+    assert_int_equal(nook_ao_set_param(ao, name, bound), NOOK_OK);
+    double stored = value_of(ao, name);
+    if (nook_ao_set_param(ao, name, stored) != NOOK_OK || fabs(stored - bound) > 1e-6 * fabs(bound))
+        fail_msg("%s: %.9g became %.9g", name, bound, stored);
+    assert_int_equal(nook_ao_set_param(ao, name, before), NOOK_OK);
+}
+
+static void test_settings_take_back_every_bound_of_every_table(void **state)
+{
+    nook_ao *ao = context(state);
+    const nook_ao_technique *technique;
+    size_t count;
+    const nook_param *shared = nook_ao_shared_params(&count);
+    for (size_t i = 0; i < count; i++) {
+        check_bound(ao, "ao", &shared[i], shared[i].lowest);
+        check_bound(ao, "ao", &shared[i], shared[i].highest);
+    }
+    for (uint32_t index = 0; (technique = nook_ao_technique_at(ao, index)) != NULL; index++) {
+        for (uint32_t i = 0; i < technique->param_count; i++) {
+            check_bound(ao, technique->name, &technique->params[i], technique->params[i].lowest);
+            check_bound(ao, technique->name, &technique->params[i], technique->params[i].highest);
+        }
+    }
 }
 
 static void test_settings_keep_the_old_value_when_the_new_one_is_out_of_range(void **state)
@@ -337,6 +369,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_settings_list_the_techniques_when_a_name_is_unknown),
         cmocka_unit_test(test_settings_list_the_parameters_when_a_name_is_unknown),
+        cmocka_unit_test(test_settings_take_back_every_bound_of_every_table),
         cmocka_unit_test(test_settings_keep_the_old_value_when_the_new_one_is_out_of_range),
         cmocka_unit_test(test_settings_take_choices_by_name_and_number),
         cmocka_unit_test(test_settings_of_a_technique_outlive_a_change_of_technique),
