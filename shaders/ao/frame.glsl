@@ -53,7 +53,7 @@ vec2 trace_pixel(vec3 position)
 // Metres that one full-resolution pixel covers at unit distance.
 float pixel_footprint()
 {
-    return 2.0 * frame.ray_scale.y / float(frame.full_size.y);
+    return 2.0 * abs(frame.ray_scale.y) / float(frame.full_size.y); // negative in a flipped projection
 }
 
 uint hash(uint x)

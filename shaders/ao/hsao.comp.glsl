@@ -11,7 +11,9 @@ layout(std140, binding = 1) uniform Params {
 } params;
 layout(binding = 0) uniform sampler2D depth_texture;
 layout(binding = 1) uniform sampler2D normal_texture;
-layout(binding = 0, r32f) uniform writeonly image2D visibility_image;
+layout(binding = 0, r32f) uniform image2D visibility_image;
+// Azimuths x to y - 1: this dispatch's part of the work, see modules/ao_hsao/hsao.c.
+layout(location = 0) uniform ivec2 part;
 
 struct Sample {
     vec3 position; // of the surface seen there
@@ -23,9 +25,10 @@ Sample look_at(vec3 point, inout uint fetches)
     Sample s = Sample(vec3(0.0), false);
     if (point.z >= 0.0)
         return s;
-    ivec2 q = ivec2(round(trace_pixel(point)));
-    if (any(lessThan(q, ivec2(0))) || any(greaterThanEqual(q, frame.size)))
+    vec2 at = round(trace_pixel(point)); // close to the eye it may be larger than any int
+    if (!(all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, vec2(frame.size)))))
         return s;
+    ivec2 q = ivec2(at);
     float depth = texelFetch(depth_texture, q, 0).r;
     fetches++;
     s.position = view_position(q, depth);
@@ -69,12 +72,13 @@ float march_above(vec3 p, vec3 n, vec3 d, float jitter, inout uint fetches)
     return 0.0;
 }
 
+// This part's share of A.
 float occlusion(ivec2 pixel, vec3 p, vec3 n, inout uint fetches)
 {
     vec3 tangent, bitangent;
     tangent_frame(n, tangent, bitangent);
     float turn = noise(pixel, 3u), jitter = noise(pixel, 4u), lift = noise(pixel, 5u), sum = 0.0;
-    for (int k = 0; k < params.directions; k++) {
+    for (int k = part.x; k < part.y; k++) {
         float angle = 6.2831853 * (float(k) + turn) / float(params.directions), height;
         vec3 along = tangent * cos(angle) + bitangent * sin(angle);
         float first = 0.05 + 0.95 * fract(jitter + float(k) * 0.61803399); // never p itself
@@ -94,11 +98,12 @@ void main()
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, frame.size)))
         return;
-    float depth = texelFetch(depth_texture, pixel, 0).r, visibility = 1.0;
+    float depth = texelFetch(depth_texture, pixel, 0).r;
+    float visibility = part.x == 0 ? 1.0 : imageLoad(visibility_image, pixel).r;
     uint fetches = 0u;
     if (depth > 0.0) {
         vec3 normal = nook_octahedral_decode(texelFetch(normal_texture, pixel, 0).xy);
-        visibility = clamp(1.0 - occlusion(pixel, view_position(pixel, depth), normal, fetches), 0.0, 1.0);
+        visibility = clamp(visibility - occlusion(pixel, view_position(pixel, depth), normal, fetches), 0.0, 1.0);
     }
     imageStore(visibility_image, pixel, vec4(visibility));
     count_fetches(fetches);

@@ -48,6 +48,8 @@ vec3 normal_at(ivec2 p, float depth)
     if (depth <= 0.0)
         return vec3(0.0, 0.0, 1.0);
     vec3 rebuilt = cross(slope(p, depth, ivec2(1, 0)), slope(p, depth, ivec2(0, 1)));
+    if (frame.ray_scale.x * frame.ray_scale.y < 0.0) // a flipped projection
+        rebuilt = -rebuilt;
     float size = dot(rebuilt, rebuilt);
     return size > 0.0 && size < 1e30 ? rebuilt * inversesqrt(size) : vec3(0.0, 0.0, 1.0);
 }

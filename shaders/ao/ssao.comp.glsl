@@ -29,9 +29,10 @@ float test_point(vec3 p, vec3 point, inout uint fetches)
 {
     if (point.z >= 0.0)
         return 0.0;
-    ivec2 q = ivec2(round(trace_pixel(point)));
-    if (any(lessThan(q, ivec2(0))) || any(greaterThanEqual(q, frame.size)))
+    vec2 at = round(trace_pixel(point)); // close to the eye it may be larger than any int
+    if (!(all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, vec2(frame.size)))))
         return 0.0;
+    ivec2 q = ivec2(at);
     float depth = texelFetch(depth_texture, q, 0).r;
     fetches++;
     if (depth <= 0.0 || depth >= -point.z - params.bias * frame.r_max)

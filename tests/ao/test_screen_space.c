@@ -177,6 +177,58 @@ static void test_screen_space_ignores_what_is_beyond_reach_in_front(void **state
     }
 }
 
+/** Mean A of hsao over a small image of a corner, with this many azimuths of 1 + 64 + 16 * 65 turns each. */
+static double measure_corner(ao_view *view, const char *directions)
+{
+    enum { SMALL = 16 };
+    double sum = 0.0;
+    ao_view_param(view, "hsao.directions", directions);
+    ao_view_record(view, "hsao");
+    for (uint32_t i = 0; i < SMALL * SMALL; i++)
+        sum += (1.0 - view->visibility[i]) / (SMALL * SMALL);
+    return sum;
+}
+
+static void test_hsao_means_the_same_with_more_samples_than_one_dispatch_holds(void **state)
+{
+    ao_view_resize(*state, 16, 16);
+    ao_view *view = look(state, (double[]){ -2, 0, 3 }, (double[]){ 0, 0, 0 }, 0.6, "1");
+    ao_view_param(view, "hsao.rays", "16");
+    ao_view_param(view, "hsao.ray_steps", "64");
+    fixture_mesh mesh = { 0 };
+    fixture_quad(&mesh, (double[]){ -20, -20, 0 }, (double[]){ 20.3, 0, 0 }, (double[]){ 0, 40, 0 });
+    fixture_quad(&mesh, (double[]){ 0.3, -20, 0 }, (double[]){ 0, 40, 0 }, (double[]){ 0, 0, 10 });
+    ao_view_draw(view, &mesh);
+    fixture_mesh_free(&mesh);
+    double few = measure_corner(view, "32"), many = measure_corner(view, "160"); /* llvmpipe stops at 65535 turns */
+    ao_view_resize(view, SIDE, SIDE);
+    assert_true(few > 0.02);
+    if (fabs(few - many) >= 0.003)
+        fail_msg("A = %.4f with 32 azimuths, %.4f with 160", few, many);
+}
+
+static void test_hsao_is_the_same_in_a_flipped_projection(void **state)
+{
+    double means[2];
+    for (int flipped = 0; flipped < 2; flipped++) {
+        ao_view *view = look(state, (double[]){ -2, 0, 3 }, (double[]){ 0, 0, 0 }, 0.6, "1");
+        view->without_normals = 1;
+        view->clip_from_view.m[5] *= flipped ? -1.0 : 1.0;
+        ao_view_clear(view);
+        fixture_mesh mesh = { 0 };
+        fixture_quad(&mesh, (double[]){ -20, -20, 0 }, (double[]){ 20.3, 0, 0 }, (double[]){ 0, 40, 0 });
+        fixture_quad(&mesh, (double[]){ 0.3, -20, 0 }, (double[]){ 0, 40, 0 }, (double[]){ 0, 0, 10 });
+        ao_view_draw(view, &mesh);
+        fixture_mesh_free(&mesh);
+        ao_view_record(view, "hsao");
+        view->without_normals = 0;
+        means[flipped] = mean_of(view, 0, 0, SIDE, SIDE);
+    }
+    assert_true(means[0] > 0.02);
+    if (fabs(means[0] - means[1]) >= 0.002)
+        fail_msg("A = %.4f, flipped %.4f", means[0], means[1]);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -185,6 +237,8 @@ int main(void)
         cmocka_unit_test(test_hsao_is_near_the_truth_in_a_corner_that_the_camera_sees),
         cmocka_unit_test(test_screen_space_cannot_see_a_ceiling_behind_the_camera),
         cmocka_unit_test(test_screen_space_ignores_what_is_beyond_reach_in_front),
+        cmocka_unit_test(test_hsao_means_the_same_with_more_samples_than_one_dispatch_holds),
+        cmocka_unit_test(test_hsao_is_the_same_in_a_flipped_projection),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
 }
