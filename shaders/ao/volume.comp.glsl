@@ -13,9 +13,13 @@ layout(std140, binding = 1) uniform Params {
 layout(binding = 0) uniform sampler2D depth_texture;
 layout(binding = 1) uniform sampler2D normal_texture;
 layout(binding = 0, r32f) uniform image2D visibility_image;
+layout(binding = 1, r32f) uniform image2D sum_image; // multiply, when the rays of one occluder take several dispatches
 // Rays x to y - 1 of occluders z to w - 1: this dispatch's part of the work, see modules/ao_volume/volume.c.
 layout(location = 0) uniform ivec4 part;
 
+const int STEPPING_FIXED = 0;
+const int COMBINE_MULTIPLY = 0;
+const int GUARD_SLAB = 0;
 const int BATCH = 8;                  // rays whose nearest hits are held in registers
 const float FILTER_PRECISION = 0.015; // voxels: hardware interpolates with 8-bit weights, three axes of 1/256 and a little
 const float NO_HIT = 1e30;
@@ -63,7 +67,7 @@ Path make_path(Occluder o, Receiver r, vec3 d, float cosine)
     vec2 free = clip_to_volume(o, path.origin, path.along);
     path.start = max(free.x, path.leave);
     path.end = min(free.y, frame.r_max);
-    if (params.guard == 0)
+    if (params.guard == GUARD_SLAB)
         return path;
     path.lifted = r.voxel + r.normal * r.slab;
     path.across = path.along - r.normal * dot(r.normal, path.along);
@@ -85,9 +89,9 @@ float march(Occluder o, Receiver r, vec3 d, float cosine, float limit, float jit
     // C9: a filtered layer of one voxel is 2 (1 - threshold) voxels thick; a longer step can jump over it.
     float shell = 2.0 * (1.0 - params.threshold) / length(path.along);
     float range = path.end - path.start;
-    float needed = params.stepping == 0 ? range * float(params.steps) / frame.r_max : range / shell;
+    float needed = params.stepping == STEPPING_FIXED ? range * float(params.steps) / frame.r_max : range / shell;
     float count = clamp(ceil(needed), 1.0, float(params.steps));
-    float dr = params.stepping == 0 ? frame.r_max / float(params.steps) : range / count;
+    float dr = params.stepping == STEPPING_FIXED ? frame.r_max / float(params.steps) : range / count;
     vec3 texel = 1.0 / vec3(textureSize(volume_atlas, 0));
     // The mean hit lies dr/2 behind the filtered layer's front, the surface half a layer behind it.
     float correction = 0.5 * (shell - dr), last = min(path.end, limit - correction);
@@ -136,7 +140,7 @@ float occlusion_union(bool inside, vec3 position, vec3 normal, ivec2 pixel, inou
 }
 
 // The paper's: product of the volumes' visibilities; darkens where volumes overlap, lights where they do not (C5). Returns this
-// part's factor.
+// part's factor. A part that does not hold all rays holds one occluder only; the last of such parts has the factor.
 float visibility_multiply(bool inside, vec3 position, vec3 normal, ivec2 pixel, inout uint fetches)
 {
     vec3 tangent, bitangent;
@@ -150,13 +154,16 @@ float visibility_multiply(bool inside, vec3 position, vec3 normal, ivec2 pixel, 
             Receiver r = receive(o, position, normal);
             if (!r.can_see)
                 continue;
-            float sum = 0.0;
+            float sum = part.x == 0 ? 0.0 : imageLoad(sum_image, pixel).r;
             for (int j = part.x; j < part.y; j++) {
                 vec3 d = direction(j, block, tangent, bitangent, normal);
                 float jitter = fract(shift + float(j) * 0.61803399);
                 sum += falloff(march(o, r, d, dot(d, normal), frame.r_max, jitter, fetches));
             }
-            visibility *= 1.0 - sum / float(params.rays);
+            if (part.y < params.rays)
+                imageStore(sum_image, pixel, vec4(sum));
+            else
+                visibility *= 1.0 - sum / float(params.rays);
         }
     }
     return visibility;
@@ -172,7 +179,7 @@ void main()
     if (tile_begin(depth)) {
         vec3 position = view_position(pixel, depth);
         vec3 normal = on_image ? nook_octahedral_decode(texelFetch(normal_texture, pixel, 0).xy) : vec3(0.0, 0.0, 1.0);
-        if (params.combine == 0)
+        if (params.combine == COMBINE_MULTIPLY)
             visibility *= visibility_multiply(depth > 0.0, position, normal, pixel, fetches);
         else
             visibility -= occlusion_union(depth > 0.0, position, normal, pixel, fetches);

@@ -219,6 +219,29 @@ static void test_volume_reports_unbiased_distances(void **state)
         fail_msg("A = %.4f, truth 0.3600", got);
 }
 
+static void test_volume_means_the_same_with_more_rays_than_one_dispatch_holds(void **state)
+{
+    static const char *const combines[] = { "union", "multiply" }, *const rays[] = { "64", "1024" };
+    for (size_t k = 0; k < NOOK_COUNT(combines); k++) {
+        ao_fixture *fixture = prepare(state, combines[k], "1");
+        ao_fixture_param(fixture, "volume.stepping", "fixed");
+        ao_fixture_param(fixture, "volume.steps", "256");
+        fixture_mesh mesh = { 0 };
+        fixture_box(&mesh, (double[]){ -1, -1, 0 }, (double[]){ 0.3, 1, 1 }, 63); /* rays cross its inside */
+        ao_fixture_add(fixture, &mesh, 48);
+        ao_fixture_add(fixture, &mesh, 48);
+        fixture_mesh_free(&mesh);
+        double means[2];
+        for (size_t i = 0; i < 2; i++) {
+            ao_fixture_param(fixture, "volume.rays", rays[i]);
+            means[i] = ao_fixture_measure(fixture, "volume", origin, up, 0.3).mean;
+        }
+        assert_true(means[0] > 0.1 && means[0] < 0.9);
+        if (fabs(means[0] - means[1]) >= 0.005)
+            fail_msg("%s: A = %.4f with 64 rays, %.4f with 1024", combines[k], means[0], means[1]);
+    }
+}
+
 static double counted_fetches(ao_fixture *fixture)
 {
     nook_ao_statistics statistics;
@@ -260,6 +283,7 @@ int main(void)
         cmocka_unit_test(test_volume_combines_the_six_faces_of_a_cube_as_predicted),
         cmocka_unit_test(test_volume_steps_longer_than_a_shell_lose_what_theory_says),
         cmocka_unit_test(test_volume_reports_unbiased_distances),
+        cmocka_unit_test(test_volume_means_the_same_with_more_rays_than_one_dispatch_holds),
         cmocka_unit_test(test_volume_pays_only_for_occluders_within_reach),
     };
     return cmocka_run_group_tests(tests, ao_fixture_setup, ao_fixture_teardown);
