@@ -1,7 +1,6 @@
 #include "engine/core/log.h"
 #include "modules/ao/ao_internal.h"
 #include "modules/ao/frame_block_internal.h"
-#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -103,9 +102,10 @@ nook_result nook_ao_set_size(nook_ao *ao, uint32_t width, uint32_t height)
     return result;
 }
 
-static size_t at_least_one(size_t size)
+/** A std140 block's size is a multiple of 16, and a buffer must cover the whole block. */
+static size_t block_size(size_t size)
 {
-    return size ? size : 1;
+    return size ? (size + 15) / 16 * 16 : 16;
 }
 
 /** Its name is the first part of its parameters' names: it must be told from the others and from "ao". */
@@ -130,12 +130,12 @@ nook_result nook_ao_add_technique(nook_ao *ao, const struct nook_ao_technique *t
     if (result != NOOK_OK)
         return result;
     ao_slot slot = { .technique = technique };
-    slot.state = calloc(1, at_least_one(technique->state_size));
-    slot.params = calloc(1, at_least_one(technique->params_size));
+    slot.state = calloc(1, technique->state_size ? technique->state_size : 1);
+    slot.params = calloc(1, block_size(technique->params_size));
     result = slot.state && slot.params ? NOOK_OK : nook_fail(NOOK_E_MEMORY, "technique %s: no memory", technique->name);
     if (result == NOOK_OK) {
         nook_param_reset(technique->params, technique->param_count, slot.params);
-        result = nook_buffer_create(ao->gpu, slot.params, at_least_one(technique->params_size), &slot.buffer);
+        result = nook_buffer_create(ao->gpu, slot.params, block_size(technique->params_size), &slot.buffer);
     }
     if (result == NOOK_OK && technique->create)
         result = technique->create(slot.state, ao->gpu);

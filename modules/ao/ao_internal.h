@@ -16,7 +16,7 @@ enum { AO_TECHNIQUE_MAX = 16, AO_OCCLUDER_DEFAULT = 4096 };
 typedef struct ao_slot {
     const nook_ao_technique *technique;
     void *state;        /**< technique->state_size bytes. Owned. */
-    void *params;       /**< technique->params_size bytes. Owned. */
+    void *params;       /**< technique->params_size bytes, rounded up to 16. Owned. */
     nook_buffer buffer; /**< The params on the GPU. */
 } ao_slot;
 

@@ -1,6 +1,5 @@
 #include "engine/core/log.h"
 #include "modules/ao/volume_atlas_internal.h"
-#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 

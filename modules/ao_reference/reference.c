@@ -41,7 +41,7 @@ static uint32_t mix(uint32_t x)
     return x;
 }
 
-/** As octahedral_decode of shaders/nook/octahedral.glsl. In double: the sign of z chooses the frame. */
+/** As nook_octahedral_decode of shaders/nook/octahedral.glsl. In double: the sign of z chooses the frame. */
 static void decode_normal(const uint16_t code[2], vec3 out)
 {
     double x = (code[0] - 32768.0) / 32767.0, y = (code[1] - 32768.0) / 32767.0;
