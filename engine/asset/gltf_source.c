@@ -22,16 +22,14 @@ static nook_result check_glb_header(nook_gltf *gltf, uint64_t *out_length)
         return nook_fail(NOOK_E_FORMAT, "%s: %zu bytes, shorter than a GLB header (%d)", gltf->path, file->size,
                          HEADER_SIZE);
     if (read_u32(file->bytes) != GLB_MAGIC)
-        return nook_fail(NOOK_E_FORMAT, "%s: not a GLB file (starts with 0x%08x)", gltf->path, read_u32(file->bytes));
+        return nook_fail(NOOK_E_FORMAT, "%s: not a GLB file (starts with 0x%08x); give a .gltf or .glb scene",
+                         gltf->path, read_u32(file->bytes));
     uint32_t version = read_u32(file->bytes + 4), length = read_u32(file->bytes + 8);
     if (version != 2)
         return nook_fail(NOOK_E_VERSION, "%s: GLB version %u; only version 2 is read, convert it", gltf->path, version);
     if (length > file->size)
         return nook_fail(NOOK_E_FORMAT, "%s: cut off: %zu bytes of the %u its header promises", gltf->path, file->size,
                          length);
-    if (length < file->size)
-        nook_scene_warn(gltf->scene, "%s: %zu bytes after the end of the GLB are ignored", gltf->path,
-                        file->size - length);
     *out_length = length;
     return NOOK_OK;
 }
@@ -67,7 +65,30 @@ static nook_result split_glb(nook_gltf *gltf)
         take_chunk(&gltf->source, type, bytes + at, size);
         at += size;
     }
-    return gltf->source.json ? NOOK_OK : nook_fail(NOOK_E_FORMAT, "%s: GLB without a JSON chunk", gltf->path);
+    if (!gltf->source.json)
+        return nook_fail(NOOK_E_FORMAT, "%s: GLB without a JSON chunk", gltf->path);
+    if (length < gltf->source.file.size) /* last: a file that is refused gets one line */
+        nook_scene_warn(gltf->scene, "%s: %zu bytes after the end of the GLB are ignored", gltf->path,
+                        gltf->source.file.size - (size_t)length);
+    return NOOK_OK;
+}
+
+/* What does not start like JSON is another kind of file, of which a JSON reader's words would be a riddle. */
+static nook_result open_json(nook_gltf *gltf)
+{
+    nook_gltf_source *source = &gltf->source;
+    source->json = (const char *)source->file.bytes;
+    source->json_size = source->file.size;
+    if (source->json_size >= 3 && memcmp(source->json, "\xEF\xBB\xBF", 3) == 0) {
+        source->json += 3; /* a byte order mark: not allowed, harmless */
+        source->json_size -= 3;
+    }
+    size_t blanks = strspn(source->json, " \t\r\n"); /* ends at the zero byte behind the file */
+    if (blanks == source->json_size || (source->json[blanks] != '{' && source->json[blanks] != '['))
+        return nook_fail(NOOK_E_FORMAT,
+                         "%s: not a glTF scene; give a .gltf or .glb file (.nkv and .nrrd files: ./nook info)",
+                         gltf->path);
+    return NOOK_OK;
 }
 
 nook_result nook_gltf_open_source(nook_gltf *gltf)
@@ -77,17 +98,11 @@ nook_result nook_gltf_open_source(nook_gltf *gltf)
     if (result != NOOK_OK)
         return result;
     if (source->file.size == 0)
-        return nook_fail(NOOK_E_FORMAT, "%s: is empty", gltf->path);
+        return nook_fail(NOOK_E_FORMAT, "%s: is empty; give a .gltf or .glb scene", gltf->path);
     bool named_glb = strcasecmp(nook_path_extension(gltf->path), ".glb") == 0;
     if (named_glb || (source->file.size >= 4 && read_u32(source->file.bytes) == GLB_MAGIC))
         return split_glb(gltf);
-    source->json = (const char *)source->file.bytes;
-    source->json_size = source->file.size;
-    if (source->json_size >= 3 && memcmp(source->json, "\xEF\xBB\xBF", 3) == 0) {
-        source->json += 3; /* a byte order mark: not allowed, harmless */
-        source->json_size -= 3;
-    }
-    return NOOK_OK;
+    return open_json(gltf);
 }
 
 void nook_gltf_close(nook_gltf *gltf)

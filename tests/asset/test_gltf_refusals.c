@@ -101,6 +101,8 @@ static void test_files_that_are_not_there_or_not_files_are_refused(void **state)
 static void test_versions_and_extensions_that_are_not_ours_are_refused_by_name(void **state)
 {
     (void)state;
+    refuse_text("NRRD0004", NOOK_E_FORMAT, "not a glTF scene; give a .gltf or .glb file");
+    refuse_text(" \n ", NOOK_E_FORMAT, "not a glTF scene");
     refuse_text("{ }", NOOK_E_FORMAT, "asset is missing");
     refuse_text("[ ]", NOOK_E_FORMAT, "the JSON is not an object");
     refuse_text("{ 'asset': { } }", NOOK_E_FORMAT, "asset.version is missing");
