@@ -1,4 +1,5 @@
 #include "game/volumes.h"
+#include "engine/core/file.h"
 #include "engine/core/log.h"
 #include "engine/core/vector.h"
 #include <cglm/cglm.h>
@@ -174,11 +175,26 @@ static void add_occluder(nook_scene_volumes *out, uint32_t volume, uint32_t node
     out->occluders[out->occluder_count++] = (nook_scene_occluder){ volume, node, *world_from_mesh };
 }
 
+/* Whether any triangle can be seen: lines and points darken nothing that anyone sees. */
+static bool has_area(const nook_scene_volume *volume)
+{
+    for (size_t i = 0; i < volume->index_count; i += 3) {
+        const float *corner = volume->positions + (size_t)volume->indices[i] * 3;
+        double u[3], v[3], normal[3];
+        nook_vector_between(corner, volume->positions + (size_t)volume->indices[i + 1] * 3, u);
+        nook_vector_between(corner, volume->positions + (size_t)volume->indices[i + 2] * 3, v);
+        nook_vector_cross(u, v, normal);
+        if (normal[0] != 0.0 || normal[1] != 0.0 || normal[2] != 0.0)
+            return true;
+    }
+    return false;
+}
+
 /* Keeps the volume that was built in the next place of `out`, unless nothing came together. */
 static bool keep_volume(nook_scene_volumes *out)
 {
     nook_scene_volume *volume = &out->volumes[out->volume_count];
-    if (volume->index_count == 0) {
+    if (!has_area(volume)) {
         free_volume(volume);
         return false;
     }
@@ -278,14 +294,30 @@ static void choose_resolutions(nook_scene_volumes *volumes, uint32_t resolution)
     }
 }
 
+/* One line for the whole cache: what stops one volume stops all. */
+static nook_result check_kept(const nook_volumes_desc *desc, const nook_bake *bake, bool *warned)
+{
+    if (bake->keep_error == 0 || *warned)
+        return NOOK_OK;
+    const char *reason = strerror(bake->keep_error);
+    if (desc->must_keep)
+        return nook_fail(NOOK_E_IO, "%s: cannot keep volumes there: %s; give another --cache", desc->cache_dir, reason);
+    nook_log_warning("%s: cannot keep volumes there: %s; they are baked each time", desc->cache_dir, reason);
+    *warned = true;
+    return NOOK_OK;
+}
+
 static nook_result bake_all(const nook_volumes_desc *desc, nook_scene_volumes *volumes)
 {
+    bool warned = false;
     for (uint32_t i = 0; i < volumes->volume_count; i++) {
         nook_scene_volume *volume = &volumes->volumes[i];
         const nook_triangles triangles = { volume->positions, 0, volume->vertex_count, volume->indices,
                                            volume->index_count };
         const nook_voxelize_desc how = { .resolution = volume->resolution, .threads = desc->threads };
         nook_result result = nook_bake_cached(desc->cache_dir, volume->name, &triangles, &how, &volume->bake);
+        if (result == NOOK_OK)
+            result = check_kept(desc, &volume->bake, &warned);
         if (result != NOOK_OK)
             return result;
         if (desc->progress)
@@ -320,6 +352,8 @@ nook_result nook_volumes_bake(const nook_scene *scene, const nook_volumes_desc *
         return nook_fail(NOOK_E_RANGE, "bake: resolution %u; choose 1 to %u", resolution, NOOK_VOXELIZE_RESOLUTION_MAX);
     if (!isfinite(desc->r_max) || desc->r_max < 0.0)
         return nook_fail(NOOK_E_RANGE, "bake: r_max %g; choose a length in metres above 0", desc->r_max);
+    if (desc->must_keep && nook_directory_make(desc->cache_dir) != NOOK_OK)
+        return NOOK_E_IO; /* before the work */
     nook_scene_volumes volumes = { .r_max = desc->r_max > 0.0 ? desc->r_max : nook_volumes_default_r_max(scene) };
     nook_result result = collect(scene, &volumes);
     if (result == NOOK_OK) {

@@ -51,6 +51,7 @@ typedef struct nook_volumes_desc {
     uint32_t resolution;   /**< [1, 510]; 0: NOOK_VOLUMES_RESOLUTION_DEFAULT. */
     double r_max;          /**< Metres; 0: NOOK_VOLUMES_R_MAX_DEFAULT of the diagonal. */
     const char *cache_dir; /**< NULL: no cache. */
+    bool must_keep;        /**< Volumes that cannot be kept in the cache are a failure; else one warning. */
     uint32_t threads;      /**< 0: all cores. */
     /** Called after each volume; NULL for none. `index` runs from 0 to count - 1. */
     void (*progress)(void *user, const nook_scene_volume *done, uint32_t index, uint32_t count);
@@ -64,9 +65,9 @@ double nook_volumes_default_r_max(const nook_scene *scene);
 uint32_t nook_volumes_body_resolution(double longest, double r_max, uint32_t resolution);
 
 /**
- * Bakes a scene, or reads it from the cache. Nodes with nothing opaque, with corners that are not finite only, or with a scale
- * of zero have no volume; a scene may have none at all.
- * @return NOOK_E_RANGE resolution or r_max; NOOK_E_MEMORY; *out is untouched on failure
+ * Bakes a scene, or reads it from the cache. Nodes with nothing opaque, with corners that are not finite only, without any area, or
+ * with a scale of zero have no volume; a scene may have none at all.
+ * @return NOOK_E_RANGE resolution or r_max; NOOK_E_MEMORY; NOOK_E_IO must_keep, and they cannot be kept; *out is untouched on failure
  */
 nook_result nook_volumes_bake(const nook_scene *scene, const nook_volumes_desc *desc, nook_scene_volumes *out);
 void nook_volumes_free(nook_scene_volumes *volumes); /**< NULL and zeroed ones are allowed. */

@@ -16,7 +16,7 @@ static nook_result check_readable(const char *path, const struct stat *info)
     if (S_ISDIR(info->st_mode))
         return nook_fail(NOOK_E_IO, "%s: is a directory; name a file", path);
     if (!S_ISREG(info->st_mode))
-        return nook_fail(NOOK_E_IO, "%s: not a regular file", path);
+        return nook_fail(NOOK_E_IO, "%s: not a regular file; name one that holds the bytes themselves", path);
     if ((size_t)info->st_size > file_size_max)
         return nook_fail(NOOK_E_MEMORY, "%s: %lld bytes; files over 4 GiB are not read", path,
                          (long long)info->st_size);
@@ -56,7 +56,7 @@ nook_result nook_file_read(const char *path, nook_file *out_file)
     /* O_NONBLOCK: opening a pipe that nobody writes to must not hang. */
     int descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (descriptor < 0 && (errno == ENOENT || errno == ENOTDIR))
-        return nook_fail(NOOK_E_NOT_FOUND, "%s: no such file", path);
+        return nook_fail(NOOK_E_NOT_FOUND, "%s: no such file; check the path", path);
     if (descriptor < 0)
         return nook_fail(NOOK_E_IO, "%s: %s", path, strerror(errno));
     nook_result result = read_open_file(path, descriptor, out_file);
@@ -78,31 +78,43 @@ static bool write_all(int descriptor, const uint8_t *bytes, size_t size)
         ssize_t put = write(descriptor, bytes, size);
         if (put < 0 && errno == EINTR)
             continue;
-        if (put <= 0)
+        if (put <= 0) {
+            errno = put < 0 ? errno : ENOSPC;
             return false;
+        }
         bytes += put;
         size -= (size_t)put;
     }
     return true;
 }
 
-nook_result nook_file_write(const char *path, const void *bytes, size_t size)
+int nook_file_try_write(const char *path, const void *bytes, size_t size)
 {
     char temporary[PATH_CAPACITY];
     int length = snprintf(temporary, sizeof temporary, "%s.%ld.tmp", path, (long)getpid());
     if (length < 0 || (size_t)length >= sizeof temporary)
-        return nook_fail(NOOK_E_IO, "%s: the path is too long", path);
+        return ENAMETOOLONG;
     int descriptor = open(temporary, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
     if (descriptor < 0)
-        return nook_fail(NOOK_E_IO, "%s: cannot write: %s", path, strerror(errno));
+        return errno;
     bool written = write_all(descriptor, bytes, size);
-    written = close(descriptor) == 0 && written;
-    if (!written || rename(temporary, path) != 0) {
-        int reason = errno;
-        unlink(temporary);
-        return nook_fail(NOOK_E_IO, "%s: cannot write: %s", path, strerror(reason));
+    int reason = errno;
+    if (close(descriptor) != 0 && written) {
+        written = false;
+        reason = errno;
     }
-    return NOOK_OK;
+    if (written && rename(temporary, path) == 0)
+        return 0;
+    if (written)
+        reason = errno;
+    unlink(temporary);
+    return reason;
+}
+
+nook_result nook_file_write(const char *path, const void *bytes, size_t size)
+{
+    int reason = nook_file_try_write(path, bytes, size);
+    return reason == 0 ? NOOK_OK : nook_fail(NOOK_E_IO, "%s: cannot write: %s", path, strerror(reason));
 }
 
 bool nook_file_exists(const char *path)
@@ -117,23 +129,31 @@ bool nook_directory_exists(const char *path)
     return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
 }
 
-nook_result nook_directory_make(const char *path)
+int nook_directory_try_make(const char *path)
 {
     char partial[PATH_CAPACITY];
     size_t length = strlen(path);
-    if (length == 0 || length >= sizeof partial)
-        return nook_fail(NOOK_E_IO, "'%s': not a usable directory name", path);
+    if (length == 0)
+        return ENOENT;
+    if (length >= sizeof partial)
+        return ENAMETOOLONG;
     for (size_t i = 1; i <= length; i++) {
         if (path[i] != '/' && path[i] != '\0')
             continue;
         memcpy(partial, path, i);
         partial[i] = '\0';
         if (mkdir(partial, 0755) != 0 && errno != EEXIST)
-            return nook_fail(NOOK_E_IO, "%s: cannot make the directory: %s", partial, strerror(errno));
+            return errno;
     }
-    if (!nook_directory_exists(path))
-        return nook_fail(NOOK_E_IO, "%s: is a file; name a directory", path);
-    return NOOK_OK;
+    return nook_directory_exists(path) ? 0 : ENOTDIR;
+}
+
+nook_result nook_directory_make(const char *path)
+{
+    int reason = nook_directory_try_make(path);
+    if (reason == 0)
+        return NOOK_OK;
+    return nook_fail(NOOK_E_IO, "'%s': cannot make the directory: %s", path, strerror(reason));
 }
 
 char *nook_path_join(char *out, size_t capacity, const char *folder, const char *name)

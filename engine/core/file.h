@@ -27,11 +27,15 @@ void nook_file_free(nook_file *file); /**< NULL and zeroed files are allowed. */
  * @return NOOK_E_IO; then `path` is as it was before.
  */
 nook_result nook_file_write(const char *path, const void *bytes, size_t size);
+/** The same without a line in the log, for what may fail. @return 0, or the errno that says why not */
+int nook_file_try_write(const char *path, const void *bytes, size_t size);
 
 bool nook_file_exists(const char *path); /**< A regular file. */
 bool nook_directory_exists(const char *path);
 /** Makes a directory and its parents. @return NOOK_E_IO */
 nook_result nook_directory_make(const char *path);
+/** The same without a line in the log, for what may fail. @return 0, or the errno that says why not */
+int nook_directory_try_make(const char *path);
 
 /** Joins with one '/'; cuts to capacity. @return out */
 char *nook_path_join(char *out, size_t capacity, const char *folder, const char *name);

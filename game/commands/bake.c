@@ -63,7 +63,7 @@ static int bake_file(const char *path, const nook_volumes_desc *desc)
     if (result != NOOK_OK)
         return NOOK_EXIT_FAILED;
     if (volumes.volume_count == 0 && drawn)
-        nook_log_warning("%s: all that it draws is blended or flattened: there is nothing to bake", path);
+        nook_log_warning("%s: all that it draws is blended or without area: there is nothing to bake", path);
     print_table(&volumes);
     nook_volumes_free(&volumes);
     return NOOK_EXIT_OK;
@@ -118,6 +118,7 @@ int nook_command_bake(const nook_app *app, int argc, char **argv)
     const nook_volumes_desc desc = { .resolution = (uint32_t)resolution,
                                      .r_max = r_max,
                                      .cache_dir = cache,
+                                     .must_keep = true,
                                      .threads = (uint32_t)threads,
                                      .progress = tell_progress };
     return bake_file(arguments.positionals[0], &desc);

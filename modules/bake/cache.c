@@ -67,10 +67,11 @@ static nook_result bake_now(const nook_triangles *triangles, const nook_voxelize
     return result;
 }
 
-static void write_cached(const char *cache_dir, const char *path, const char *name, const nook_bake *bake)
+/* @return 0, or the errno that says why not */
+static int write_cached(const char *cache_dir, const char *path, const nook_bake *bake)
 {
-    if (nook_directory_make(cache_dir) != NOOK_OK || nook_file_write(path, bake->bytes, bake->size) != NOOK_OK)
-        nook_log_warning("%s: its volume could not be kept in the cache; going on without", name);
+    int reason = nook_directory_try_make(cache_dir);
+    return reason ? reason : nook_file_try_write(path, bake->bytes, bake->size);
 }
 
 static nook_result check_arguments(const nook_triangles *triangles)
@@ -105,7 +106,7 @@ nook_result nook_bake_cached(const char *cache_dir, const char *name, const nook
             return result;
         bake.ms = nook_clock_ms() - start;
         if (cache_dir)
-            write_cached(cache_dir, path, name, &bake);
+            bake.keep_error = write_cached(cache_dir, path, &bake);
     } else {
         bake.ms = nook_clock_ms() - start;
     }

@@ -16,14 +16,15 @@ typedef struct nook_bake {
     nook_volume_info info;
     double ms;      /**< Wall time of voxelising and compressing, or of reading and checking. */
     bool cache_hit; /**< Nothing was voxelised. */
+    int keep_error; /**< The errno that says why it is not in the cache now; 0: it is, or there is no cache. */
 } nook_bake;
 
 void nook_bake_free(nook_bake *bake); /**< NULL and zeroed bakes are allowed. */
 
 /**
  * The volume of a soup, from the cache when it holds a sound one. A damaged, truncated or stale file is warned about, baked
- * again and replaced. A cache that cannot be read or written is warned about and done without. Any number of threads and
- * processes may bake into one folder.
+ * again and replaced. A cache that cannot be written is done without; `keep_error` tells. Any number of threads and processes
+ * may bake into one folder.
  * @param cache_dir  made when it is missing; NULL: no cache
  * @param name       what is baked, used in messages only
  * @return what nook_voxelize and nook_volume_encode return; *out_bake is untouched on failure

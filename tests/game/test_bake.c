@@ -8,6 +8,7 @@
 #include <stddef.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cmocka.h>
@@ -85,14 +86,54 @@ static void test_bake_fills_the_cache_and_finds_it_again(void **state)
     clear(&b);
 }
 
-static void test_bake_goes_on_without_a_cache_that_cannot_be_made(void **state)
+static void test_bake_fails_when_its_volumes_cannot_be_kept(void **state)
 {
     (void)state;
     bench b;
     prepare(&b);
-    char inside_a_file[600];
+    char inside_a_file[600], *cannot_be_made[] = { "bake", b.scene, "--cache", inside_a_file, NULL };
     nook_path_join(inside_a_file, sizeof inside_a_file, b.scene, "cache");
-    assert_int_equal(run(&b, 4, (char *[]){ "bake", b.scene, "--cache", inside_a_file, NULL }), NOOK_EXIT_OK);
+    assert_int_equal(run(&b, 4, cannot_be_made), NOOK_EXIT_FAILED);
+    assert_int_equal(b.log.count, 1);
+    assert_non_null(strstr(b.log.text, inside_a_file));
+    clear(&b);
+}
+
+static void test_bake_fails_when_a_directory_stands_where_a_volume_belongs(void **state)
+{
+    (void)state;
+    bench b;
+    prepare(&b);
+    char *argv[] = { "bake", b.scene, "--cache", b.cache, "--resolution", "20", NULL }, volume[1024] = "";
+    assert_int_equal(run(&b, 6, argv), NOOK_EXIT_OK);
+    DIR *directory = opendir(b.cache);
+    assert_non_null(directory);
+    for (struct dirent *entry; (entry = readdir(directory));) {
+        if (entry->d_name[0] != '.')
+            nook_path_join(volume, sizeof volume, b.cache, entry->d_name);
+    }
+    closedir(directory);
+    assert_int_equal(remove(volume), 0);
+    assert_int_equal(mkdir(volume, 0700), 0);
+    assert_int_equal(run(&b, 6, argv), NOOK_EXIT_FAILED);
+    assert_int_equal(b.log.count, 1);
+    assert_int_equal(b.log.errors, 1);
+    assert_non_null(strstr(b.log.text, b.cache));
+    clear(&b);
+}
+
+static void test_scene_without_area_has_nothing_to_bake(void **state)
+{
+    (void)state;
+    bench b;
+    prepare(&b);
+    char line[sizeof scene_text], *corner = memcpy(line, scene_text, sizeof line);
+    while ((corner = strstr(corner, "gD8")))
+        memcpy(corner, "AAA", 3); /* its coordinates of 1 become 0 */
+    assert_int_equal(nook_file_write(b.scene, line, sizeof line - 1), NOOK_OK);
+    assert_int_equal(run(&b, 4, (char *[]){ "bake", b.scene, "--cache", b.cache, NULL }), NOOK_EXIT_OK);
+    assert_non_null(strstr(b.log.text, "there is nothing to bake"));
+    assert_int_equal(count_cache(&b, false), 0);
     clear(&b);
 }
 
@@ -127,7 +168,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_bake_fills_the_cache_and_finds_it_again),
-        cmocka_unit_test(test_bake_goes_on_without_a_cache_that_cannot_be_made),
+        cmocka_unit_test(test_bake_fails_when_its_volumes_cannot_be_kept),
+        cmocka_unit_test(test_bake_fails_when_a_directory_stands_where_a_volume_belongs),
+        cmocka_unit_test(test_scene_without_area_has_nothing_to_bake),
         cmocka_unit_test(test_bake_fails_on_a_scene_that_does_not_load),
         cmocka_unit_test(test_bake_refuses_absurd_options),
     };

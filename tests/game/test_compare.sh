@@ -141,6 +141,11 @@ test_an_output_folder_that_cannot_be_written_is_refused_before_the_work() {
     [ "$(cat "$tmp/in the way")" = 'a file' ]
 }
 
+test_a_cache_that_cannot_be_written_is_one_warning() {
+    compare_crate --out "$tmp/uncached" --techniques volume --cache /proc/nook >/dev/null 2>"$tmp/said"
+    [ "$(grep -c /proc/nook "$tmp/said")" -eq 1 ]
+}
+
 test_a_second_run_replaces_the_first_one_whole() {
     compare_crate --out "$tmp/again" --techniques volume,ssao
     printf 'mine' >"$tmp/again/notes.png"
