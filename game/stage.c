@@ -73,13 +73,22 @@ static void pass_progress_on(void *user, double fraction)
         answer_events(stage, &input);
 }
 
+/* A body is one occluder each frame, and so is all that stands still. */
+static uint32_t count_occluders(const nook_scene *scene)
+{
+    uint32_t count = 1;
+    for (uint32_t i = 0; i < scene->node_count; i++)
+        count += scene->nodes[i].mesh != NOOK_NONE && scene->nodes[i].moving;
+    return count;
+}
+
 static nook_result open_ao(nook_stage *stage)
 {
     const nook_ao_desc desc = { .version = NOOK_AO_VERSION,
                                 .gpu = stage->gpu,
                                 .width = stage->width,
                                 .height = stage->height,
-                                .max_occluders = 0,
+                                .max_occluders = count_occluders(stage->scene),
                                 .progress = pass_progress_on,
                                 .progress_user = stage };
     nook_result result = nook_ao_create(&desc, &stage->ao);

@@ -86,12 +86,20 @@ static void append_mesh(const nook_scene *scene, const nook_mesh *mesh, const no
     }
 }
 
-static void free_volume(nook_scene_volume *volume)
+void nook_scene_volume_release(nook_scene_volume *volume)
 {
-    free(volume->name);
     free(volume->positions);
     free(volume->indices);
-    nook_bake_free(&volume->bake);
+    free(volume->bake.bytes);
+    volume->positions = NULL;
+    volume->indices = NULL;
+    volume->bake.bytes = NULL;
+}
+
+static void free_volume(nook_scene_volume *volume)
+{
+    nook_scene_volume_release(volume);
+    free(volume->name);
     *volume = (nook_scene_volume){ 0 };
 }
 
@@ -172,6 +180,7 @@ static void name_mesh(const nook_scene *scene, const nook_node *node, char out[N
 
 static void add_occluder(nook_scene_volumes *out, uint32_t volume, uint32_t node, const nook_matrix *world_from_mesh)
 {
+    out->volumes[volume].instances++;
     out->occluders[out->occluder_count++] = (nook_scene_occluder){ volume, node, *world_from_mesh };
 }
 
@@ -198,6 +207,7 @@ static bool keep_volume(nook_scene_volumes *out)
         free_volume(volume);
         return false;
     }
+    volume->longest = longest_side(volume);
     out->volume_count++;
     return true;
 }
@@ -286,7 +296,7 @@ static void choose_resolutions(nook_scene_volumes *volumes, uint32_t resolution)
         nook_scene_volume *volume = &volumes->volumes[occluder->volume];
         uint32_t needed = resolution;
         if (occluder->node != NOOK_NONE) {
-            double longest = longest_side(volume) * largest_scale(&occluder->world_from_mesh);
+            double longest = volume->longest * largest_scale(&occluder->world_from_mesh);
             needed = nook_volumes_body_resolution(longest, volumes->r_max, resolution);
         }
         if (needed > volume->resolution)

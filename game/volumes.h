@@ -27,6 +27,8 @@ typedef struct nook_scene_volume {
     uint32_t vertex_count;
     uint32_t *indices;   /**< What was voxelised, and what the reference traces. */
     size_t index_count;  /**< A multiple of 3, at least 3. */
+    double longest;      /**< Longest side of its box, metres, mesh space. */
+    uint32_t instances;  /**< Occluders that it stands for. */
     uint32_t resolution; /**< What it was baked at: voxels on the longest side. */
     nook_bake bake;      /**< The .nkv file image, what it holds, bake time, cache hit. */
 } nook_scene_volume;
@@ -70,6 +72,8 @@ uint32_t nook_volumes_body_resolution(double longest, double r_max, uint32_t res
  * @return NOOK_E_RANGE resolution or r_max; NOOK_E_MEMORY; NOOK_E_IO must_keep, and they cannot be kept; *out is untouched on failure
  */
 nook_result nook_volumes_bake(const nook_scene *scene, const nook_volumes_desc *desc, nook_scene_volumes *out);
+/** Frees one volume's data once it has been uploaded; its name, numbers and place stay. */
+void nook_scene_volume_release(nook_scene_volume *volume);
 void nook_volumes_free(nook_scene_volumes *volumes); /**< NULL and zeroed ones are allowed. */
 
 #ifdef __cplusplus

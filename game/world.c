@@ -35,9 +35,8 @@ static nook_result bake(const nook_scene *scene, const nook_game_world_desc *des
     return result;
 }
 
-static void describe_volume(const nook_scene_volumes *baked, uint32_t index, nook_world_volume *out)
+static void describe_volume(const nook_scene_volume *volume, nook_world_volume *out)
 {
-    const nook_scene_volume *volume = &baked->volumes[index];
     const nook_volume_info *info = &volume->bake.info;
     *out = (nook_world_volume){ .width = info->width,
                                 .height = info->height,
@@ -45,11 +44,10 @@ static void describe_volume(const nook_scene_volumes *baked, uint32_t index, noo
                                 .voxel_size = info->voxel_size,
                                 .bytes = (uint64_t)info->width * info->height * info->depth,
                                 .file_bytes = volume->bake.size,
+                                .instances = volume->instances,
                                 .bake_ms = volume->bake.ms,
                                 .cached = volume->bake.cache_hit };
     snprintf(out->name, sizeof out->name, "%s", volume->name);
-    for (uint32_t i = 0; i < baked->occluder_count; i++)
-        out->instances += baked->occluders[i].volume == index;
 }
 
 /* Uploads a volume and its triangles. */
@@ -121,7 +119,7 @@ static nook_result make_occluders(nook_game_world *world, const nook_scene_volum
     return NOOK_OK;
 }
 
-static nook_result fill(nook_game_world *world, const nook_scene *scene, nook_ao *ao, const nook_scene_volumes *baked)
+static nook_result fill(nook_game_world *world, const nook_scene *scene, nook_ao *ao, nook_scene_volumes *baked)
 {
     nook_entity *of_node = calloc(scene->node_count + 1, sizeof *of_node);
     nook_volume_occluder *of_volume = calloc(baked->volume_count + 1, sizeof *of_volume);
@@ -131,8 +129,9 @@ static nook_result fill(nook_game_world *world, const nook_scene *scene, nook_ao
     if (!of_node || !of_volume || !world->volumes)
         result = nook_fail(NOOK_E_MEMORY, "%s: no memory for its entities", scene->path);
     for (uint32_t i = 0; i < baked->volume_count && result == NOOK_OK; i++) {
-        describe_volume(baked, i, &world->volumes[i]);
+        describe_volume(&baked->volumes[i], &world->volumes[i]);
         result = upload(ao, &baked->volumes[i], &of_volume[i]);
+        nook_scene_volume_release(&baked->volumes[i]); /* the AO has its own copy; two of all are much memory */
     }
     if (result == NOOK_OK)
         result = make_nodes(world, scene, of_node);
@@ -205,6 +204,9 @@ nook_result nook_game_world_update(nook_game_world *world, nook_ao *ao)
         return result;
     const nook_type type = NOOK_TYPE(nook_occluder_list);
     const nook_occluder_list *list = nook_world_resource(world->entities, &type);
+    if (list->dropped > 0)
+        return nook_fail(NOOK_E_MEMORY, "%u bodies more than the %u that the scene came with: no room for them",
+                         list->dropped, list->capacity);
     return nook_ao_submit_occluders(ao, list->items, list->count);
 }
 
@@ -220,14 +222,4 @@ const nook_world_volume *nook_game_world_volumes(const nook_game_world *world, u
 {
     *out_count = world->volume_count;
     return world->volumes;
-}
-
-nook_world *nook_game_world_entities(nook_game_world *world)
-{
-    return world->entities;
-}
-
-const nook_components *nook_game_world_components(const nook_game_world *world)
-{
-    return &world->components;
 }

@@ -46,7 +46,3 @@ nook_result nook_game_world_update(nook_game_world *world, nook_ao *ao);
 /** What the last update collected; valid until the next. */
 const nook_draw *nook_game_world_draws(const nook_game_world *world, size_t *out_count);
 const nook_world_volume *nook_game_world_volumes(const nook_game_world *world, uint32_t *out_count);
-
-/** The entities themselves, for systems and tools. */
-nook_world *nook_game_world_entities(nook_game_world *world);
-const nook_components *nook_game_world_components(const nook_game_world *world);

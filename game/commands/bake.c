@@ -20,14 +20,6 @@ static void tell_progress(void *user, const nook_scene_volume *done, uint32_t in
                   done->bake.ms, done->bake.cache_hit ? ", from the cache" : "");
 }
 
-static uint32_t count_instances(const nook_scene_volumes *volumes, uint32_t volume)
-{
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < volumes->occluder_count; i++)
-        count += volumes->occluders[i].volume == volume;
-    return count;
-}
-
 static void print_table(const nook_scene_volumes *volumes)
 {
     size_t bytes = 0;
@@ -40,9 +32,8 @@ static void print_table(const nook_scene_volumes *volumes)
         char size[40], time[32];
         snprintf(size, sizeof size, "%ux%ux%u", info->width, info->height, info->depth);
         snprintf(time, sizeof time, "%.1f", v->bake.ms);
-        printf("%-28.28s %9zu %6u %13s %10.3g %10llu %10zu %9s\n", v->name, v->index_count / 3,
-               count_instances(volumes, i), size, info->voxel_size, (unsigned long long)info->occupied, v->bake.size,
-               v->bake.cache_hit ? "cached" : time);
+        printf("%-28.28s %9zu %6u %13s %10.3g %10llu %10zu %9s\n", v->name, v->index_count / 3, v->instances, size,
+               info->voxel_size, (unsigned long long)info->occupied, v->bake.size, v->bake.cache_hit ? "cached" : time);
         bytes += v->bake.size;
         ms += v->bake.ms;
     }

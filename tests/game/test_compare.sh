@@ -146,6 +146,26 @@ test_a_cache_that_cannot_be_written_is_one_warning() {
     [ "$(grep -c /proc/nook "$tmp/said")" -eq 1 ]
 }
 
+# add_crates COUNT: the scene with that many crates more, in rows far away.
+add_crates() {
+    awk -v count="$1" '
+        / "cameras": \[/ {
+            for (i = 0; i < count; i++)
+                printf ", { \"mesh\": 1, \"translation\": [%d, 0, %d], \"extras\": { \"nook_body\": true } }", 10 + i % 70 * 2, 10 + i / 70 * 2
+        }
+        NR > 1 { print last }
+        { last = $0 }
+        /^    2$/ && !listed { for (i = 0; i < count; i++) last = last ", " i + 3; listed = 1 }
+        END { print last }' "$crate"
+}
+
+test_thousands_of_bodies_are_compared() {
+    add_crates 4200 >"$tmp/crates.gltf"
+    compare "$tmp/crates.gltf" --size 24x16 --frames 1 --reference-rays 1 --no-instability --techniques volume --r-max 0.5 \
+        --out "$tmp/crates" --json >"$tmp/printed"
+    assert_holds "$(cat "$tmp/printed")" '"instances": 4201'
+}
+
 test_a_second_run_replaces_the_first_one_whole() {
     compare_crate --out "$tmp/again" --techniques volume,ssao
     printf 'mine' >"$tmp/again/notes.png"
