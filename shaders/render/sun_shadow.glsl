@@ -9,31 +9,62 @@ vec4 spline_weights(float f)
     return vec4(g * g * g, 4.0 - 3.0 * f * f * (2.0 - f), 4.0 - 3.0 * g * g * (2.0 - g), f * f * f) / 6.0;
 }
 
+const float INWARD = 8.0; // half of a spline's texels are 0.24 texels off its middle on average
+const float INWARD_MAX = 2.0; // texels
+
 // What the filter knows of the receiver, in texels and the map's depth.
 struct Receiver {
     vec3 position;
     vec2 slope; // depth per texel of its plane
+    float height; // depth from the position to the plane, which it may be lifted off
     float bias; // what lies less than this before the plane is the receiver itself
+    float same; // what lies this near the plane is on it
     float reach; // what lies more than this behind the plane is something else
 };
 
-// Four texels around a common corner, in textureGather's order: x added to `sum` weighs those that the sun reaches,
-// y those that say something about the receiver's surface.
-void gather(Receiver receiver, vec2 corner, vec4 weights, inout vec2 sum)
+// Sums over the filter's texels, weighed by the spline.
+struct Gathered {
+    float lit; // those that the sun reaches
+    float known; // those that say something about the receiver's surface
+    float seen; // those that show the surface itself
+    vec2 inward; // the offsets of the known ones: towards the inside of the surface, 0 where it is all around
+};
+
+// Adds four texels around a common corner.
+void gather(Receiver receiver, vec2 corner, vec4 weights, inout Gathered sum)
 {
     const float size = float(textureSize(shadow_map, 0).x);
     vec4 blocker = textureGather(shadow_map, corner / size);
     vec2 offset = corner - receiver.position.xy;
     vec4 x = offset.x + vec4(-0.5, 0.5, 0.5, -0.5);
     vec4 y = offset.y + vec4(0.5, 0.5, -0.5, -0.5);
-    vec4 plane = receiver.slope.x * x + receiver.slope.y * y; // the receiver's own plane at each texel
-    // Compared with the plane, but never deeper than the receiver: or the far side of every sunlit corner would count as
+    // The receiver's own plane at each texel.
+    vec4 plane = receiver.height + receiver.slope.x * x + receiver.slope.y * y;
+    // Compared with the plane, but never deeper than the position: or the far side of every sunlit corner would count as
     // its own blocker.
     vec4 lit = vec4(greaterThanEqual(blocker, receiver.position.z + min(plane, 0.0) - receiver.bias));
     // A texel that sees past the edge of the surface knows nothing of it; counted as lit it would draw bright lines into
     // the corners of closed rooms, whose walls end where the surface does.
-    vec4 known = vec4(lessThanEqual(blocker, receiver.position.z + plane + receiver.reach));
-    sum += vec2(dot(weights, lit * known), dot(weights, known));
+    vec4 known = weights * vec4(lessThanEqual(blocker, receiver.position.z + plane + receiver.reach));
+    sum.lit += dot(known, lit);
+    sum.seen += dot(weights, vec4(lessThan(abs(blocker - receiver.position.z - plane), vec4(receiver.same))));
+    sum.known += dot(known, vec4(1.0));
+    sum.inward += vec2(dot(known, x), dot(known, y));
+}
+
+Gathered filter_shadow(Receiver receiver)
+{
+    vec2 base = floor(receiver.position.xy - 0.5);
+    vec2 f = receiver.position.xy - 0.5 - base;
+    vec4 wx = spline_weights(f.x), wy = spline_weights(f.y);
+    Gathered sum = Gathered(0.0, 0.0, 0.0, vec2(0.0));
+    for (int j = 0; j < 4; j += 2) {
+        for (int i = 0; i < 4; i += 2) {
+            vec4 weights = vec4(wx[i], wx[i + 1], wx[i + 1], wx[i]) * vec4(wy[j + 1], wy[j + 1], wy[j], wy[j]);
+            gather(receiver, base + vec2(i, j), weights, sum);
+        }
+    }
+    return sum;
 }
 
 // Fraction of the sun that reaches a point. Flat receivers do not shadow themselves at any slope, because each texel is
@@ -59,18 +90,25 @@ float sun_shadow(vec3 relative, vec3 geometric)
         return 1.0;
     receiver.position.xy *= float(textureSize(shadow_map, 0).x);
     receiver.slope = normal.xy / cosine * texel;
-    receiver.bias = 0.2 * texel + 0.1 * length(receiver.slope);
-    receiver.reach = (1.0 + lift / cosine) * texel + length(receiver.slope);
+    receiver.height = lift / cosine * texel;
+    receiver.bias = 0.2 * texel + 0.1 * length(receiver.slope) / (1.0 + lift);
+    receiver.same = 0.01 * receiver.bias;
+    receiver.reach = texel + length(receiver.slope);
 
-    vec2 base = floor(receiver.position.xy - 0.5);
-    vec2 f = receiver.position.xy - 0.5 - base;
-    vec4 wx = spline_weights(f.x), wy = spline_weights(f.y);
-    vec2 sum = vec2(0.0);
-    for (int j = 0; j < 4; j += 2) {
-        for (int i = 0; i < 4; i += 2) {
-            vec4 weights = vec4(wx[i], wx[i + 1], wx[i + 1], wx[i]) * vec4(wy[j + 1], wy[j + 1], wy[j], wy[j]);
-            gather(receiver, base + vec2(i, j), weights, sum);
+    Gathered sum = filter_shadow(receiver);
+    // Where the surface ends in the map it may meet a blocker, as a wall meets its ceiling, and under a texel from there
+    // the bias takes the one for the other. Unless the map shows the surface itself, such an edge takes its light from
+    // inside, where the whole filter lies on the surface: about two texels from an edge that halves the filter.
+    vec2 inward = sum.inward * INWARD;
+    float far = length(inward), doubt = 1.0 - smoothstep(0.1, 0.4, sum.seen / max(sum.known, 0.001));
+    if (far > 0.05 && doubt > 0.0) {
+        inward *= min(1.0, INWARD_MAX / far);
+        receiver.position += vec3(inward, dot(receiver.slope, inward));
+        Gathered inside = filter_shadow(receiver);
+        if (inside.known > 0.5 * sum.known) {
+            sum.lit = mix(sum.lit, inside.lit, doubt);
+            sum.known = mix(sum.known, inside.known, doubt);
         }
     }
-    return sum.y > 0.001 ? sum.x / sum.y : 1.0;
+    return sum.known > 0.001 ? sum.lit / sum.known : 1.0;
 }
