@@ -26,9 +26,7 @@ static nook_result set_params(nook_stage *stage, const nook_compare_options *opt
         result = nook_ao_set_param(ao, "reference.rays", options->reference_rays);
     for (size_t i = 0; i < options->params.count && result == NOOK_OK; i++) {
         char name[256];
-        const char *text = options->params.items[i], *equals = strchr(text, '=');
-        if (!equals || (size_t)(equals - text) >= sizeof name)
-            return nook_fail(NOOK_E_ARG, "--param %s: give technique.name=value", text);
+        const char *text = options->params.items[i], *equals = strchr(text, '='); /* checked with the options */
         snprintf(name, sizeof name, "%.*s", (int)(equals - text), text);
         result = nook_ao_parse_param(ao, name, equals + 1);
     }
@@ -77,14 +75,12 @@ static nook_result report(const nook_stage *stage, const nook_compare_options *o
     return result == NOOK_OK ? check_finite(comparison) : result;
 }
 
-static nook_result compare(nook_stage *stage, const nook_compare_options *options, nook_camera *out_camera)
+static nook_result compare(nook_stage *stage, const nook_compare_options *options, const nook_compare_choice *choice,
+                           nook_camera *out_camera)
 {
     nook_comparison comparison;
-    nook_compare_choice choice;
     char label[sizeof comparison.camera];
     nook_result result = set_params(stage, options);
-    if (result == NOOK_OK)
-        result = nook_compare_choose(stage->ao, options->techniques, &choice);
     if (result == NOOK_OK)
         result = nook_camera_choose(stage->scene, options->camera, (double)stage->width / stage->height, out_camera,
                                     label, sizeof label);
@@ -99,7 +95,7 @@ static nook_result compare(nook_stage *stage, const nook_compare_options *option
     if (result == NOOK_OK)
         result = nook_stage_expose(stage, out_camera);
     if (result == NOOK_OK)
-        result = nook_compare_run(stage, out_camera, &choice, (uint32_t)options->frames, &comparison);
+        result = nook_compare_run(stage, out_camera, choice, (uint32_t)options->frames, &comparison);
     if (result != NOOK_OK)
         return result;
     memcpy(comparison.camera, label, sizeof label);
@@ -114,9 +110,12 @@ static nook_result compare(nook_stage *stage, const nook_compare_options *option
 int nook_command_compare(const nook_app *app, int argc, char **argv)
 {
     nook_compare_options options;
+    nook_compare_choice choice;
     int exit_code;
     if (!nook_compare_options_read(app, argc, argv, &options, &exit_code))
         return exit_code;
+    if (nook_compare_options_check(&options, &choice) != NOOK_OK)
+        return NOOK_EXIT_USAGE;
     const nook_stage_desc desc = { .root = app->root,
                                    .scene_path = options.scene,
                                    .backend = options.backend,
@@ -127,7 +126,7 @@ int nook_command_compare(const nook_app *app, int argc, char **argv)
     nook_camera camera;
     nook_result result = nook_stage_open(&desc, &stage);
     if (result == NOOK_OK)
-        result = compare(&stage, &options, &camera);
+        result = compare(&stage, &options, &choice, &camera);
     if (result == NOOK_OK && stage.shows && !stage.stop_asked)
         result = nook_view_run(&stage, &camera, nook_path_name(options.scene));
     nook_stage_close(&stage);

@@ -63,12 +63,25 @@ static int parse_numbers(const char *text, double numbers[7])
     return 8; /* more than seven */
 }
 
-static nook_result camera_from_numbers(const nook_scene *scene, const double numbers[7], nook_camera *out_camera)
+static nook_result camera_from_numbers(const double numbers[7], double z_near, nook_camera *out_camera)
 {
     double fov = numbers[6];
     if (!(fov >= 1.0 && fov <= 170.0))
         return nook_fail(NOOK_E_RANGE, "camera: a field of view of %g degrees; give 1 to 170", fov);
-    return nook_camera_look(numbers, numbers + 3, fov * degree, near_fraction * nook_scene_diagonal(scene), out_camera);
+    return nook_camera_look(numbers, numbers + 3, fov * degree, z_near, out_camera);
+}
+
+nook_result nook_camera_check(const char *text)
+{
+    double numbers[7];
+    nook_camera camera;
+    int count = parse_numbers(text, numbers);
+    if (count == 7)
+        return camera_from_numbers(numbers, near_fraction, &camera);
+    if (count > 1) /* a single number may well be a name */
+        return nook_fail(NOOK_E_RANGE, "camera %s: give seven numbers, px,py,pz,tx,ty,tz,fov, or a camera's name",
+                         text);
+    return NOOK_OK;
 }
 
 static nook_result refuse_name(const nook_scene *scene, const char *text)
@@ -108,7 +121,7 @@ nook_result nook_camera_choose(const nook_scene *scene, const char *text, double
     double numbers[7];
     if (parse_numbers(text, numbers) != 7)
         return refuse_name(scene, text);
-    nook_result result = camera_from_numbers(scene, numbers, out_camera);
+    nook_result result = camera_from_numbers(numbers, near_fraction * nook_scene_diagonal(scene), out_camera);
     if (result == NOOK_OK)
         snprintf(out_label, label_capacity, "%s", text);
     return result;

@@ -13,6 +13,9 @@
 nook_result nook_camera_choose(const nook_scene *scene, const char *text, double aspect, nook_camera *out_camera,
                                char *out_label, size_t label_capacity);
 
+/** Checks what of `text` needs no scene: seven numbers, when it is numbers. @return NOOK_E_RANGE numbers that are no view */
+nook_result nook_camera_check(const char *text);
+
 /** The index-th camera of the scene that the renderer can use (perspective), or NULL. */
 const nook_scene_camera *nook_camera_at(const nook_scene *scene, uint32_t index);
 

@@ -9,58 +9,6 @@
 
 enum { FRAMES_DEFAULT = 5, TIMING_BUDGET_MS = 4000 };
 
-static const nook_ao_technique *find_technique(const nook_ao *ao, const char *name, size_t length)
-{
-    const nook_ao_technique *technique;
-    for (uint32_t i = 0; (technique = nook_ao_technique_at(ao, i)); i++) {
-        if (strlen(technique->name) == length && memcmp(technique->name, name, length) == 0)
-            return technique;
-    }
-    return NULL;
-}
-
-static nook_result refuse_technique(const nook_ao *ao, const char *name, size_t length)
-{
-    char names[256] = "";
-    size_t used = 0;
-    const nook_ao_technique *technique;
-    for (uint32_t i = 0; (technique = nook_ao_technique_at(ao, i)) && used < sizeof names; i++)
-        used += (size_t)snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "", technique->name);
-    return nook_fail(NOOK_E_NOT_FOUND, "technique '%.*s': choose from %s", (int)length, name, names);
-}
-
-static void choose(nook_compare_choice *choice, const nook_ao_technique *technique)
-{
-    for (uint32_t i = 0; i < choice->count; i++) {
-        if (choice->techniques[i] == technique)
-            return;
-    }
-    if (choice->count < NOOK_COMPARE_TECHNIQUES_MAX)
-        choice->techniques[choice->count++] = technique;
-}
-
-nook_result nook_compare_choose(const nook_ao *ao, const char *list, nook_compare_choice *out_choice)
-{
-    nook_compare_choice choice = { 0 };
-    const nook_ao_technique *technique;
-    for (uint32_t i = 0; (technique = nook_ao_technique_at(ao, i)); i++) {
-        if (technique->exact)
-            choose(&choice, technique);
-    }
-    for (uint32_t i = 0; !list && (technique = nook_ao_technique_at(ao, i)); i++)
-        choose(&choice, technique);
-    for (const char *at = list; at; at = *at ? at + 1 : NULL) {
-        size_t length = strcspn(at, ",");
-        technique = find_technique(ao, at, length);
-        if (!technique)
-            return refuse_technique(ao, at, length);
-        choose(&choice, technique);
-        at += length;
-    }
-    *out_choice = choice;
-    return NOOK_OK;
-}
-
 static int compare_doubles(const void *a, const void *b)
 {
     double x = *(const double *)a, y = *(const double *)b;

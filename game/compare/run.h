@@ -1,6 +1,6 @@
 #pragma once
 #include "engine/core/result.h"
-#include "game/compare/options.h"
+#include "game/compare/choice.h"
 #include "game/compare/second_view.h"
 #include "game/stage.h"
 #include "modules/ao/technique.h"
@@ -8,8 +8,6 @@
 #include "modules/measure/instability.h"
 #include "modules/measure/pfm.h"
 #include "modules/measure/picture.h"
-
-enum { NOOK_COMPARE_TECHNIQUES_MAX = 16 };
 
 /** One technique on one frame. */
 typedef struct nook_compare_row {
@@ -33,18 +31,6 @@ typedef struct nook_comparison {
     char camera[256];        /**< What to call the view. */
     nook_second_view second; /**< Not measured until nook_compare_steadiness. */
 } nook_comparison;
-
-/** Which techniques a comparison runs: the exact one first, then those of a list. */
-typedef struct nook_compare_choice {
-    const nook_ao_technique *techniques[NOOK_COMPARE_TECHNIQUES_MAX];
-    uint32_t count;
-} nook_compare_choice;
-
-/**
- * @param list  "volume,ssao"; NULL: all
- * @return NOOK_E_NOT_FOUND an unknown name (the line lists them); NOOK_E_ARG nothing in the list
- */
-nook_result nook_compare_choose(const nook_ao *ao, const char *list, nook_compare_choice *out_choice);
 
 /**
  * Draws the G-buffer once, then records, times, counts and reads back every chosen technique on it.

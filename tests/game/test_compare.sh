@@ -102,31 +102,34 @@ test_parameters_are_applied_and_reported() {
     assert_holds "$(cat "$tmp/printed")" '"scale": "half"'
 }
 
-# refused TEXT ARGUMENT...: exit code 1, one line that holds TEXT, and no files.
+# refused CODE TEXT ARGUMENT...: that exit code, one line that holds TEXT, and no files.
 refused() {
-    local text=$1 said
-    shift
+    local code=$1 text=$2 said
+    shift 2
     rm -rf "$tmp/refused"
-    said=$(assert_fails 1 compare --size 96x64 --frames 1 --out "$tmp/refused" "$@")
+    said=$(assert_fails "$code" compare --size 96x64 --frames 1 --out "$tmp/refused" "$@")
     assert_holds "$said" "$text"
     [ "$(wc -l <<<"$said")" -eq 1 ]
     [ ! -e "$tmp/refused" ]
 }
 
 test_bad_input_is_one_line_and_leaves_nothing_behind() {
-    refused 'no such file' "$tmp/missing.glb"
-    refused 'directory' "$tmp"
+    refused 1 'no such file' "$tmp/missing.glb"
+    refused 1 'directory' "$tmp"
     printf 'glTF is not what this is' >"$tmp/broken.glb"
-    refused 'broken.glb' "$tmp/broken.glb"
-    refused "choose from volume, ssao, hsao, reference" "$crate" --techniques volume,magic
-    refused "'corner'" "$crate" --camera nowhere
-    refused 'field of view' "$crate" --camera 1,1,1,0,0,0,179
-    refused 'two points' "$crate" --camera 1,1,1,1,1,1,60
-    refused 'falloff' "$crate" --falloff sudden
-    refused 'rays' "$crate" --param volume.rays=0
-    refused 'nonsense' "$crate" --param volume.nonsense=1
-    refused 'magic' "$crate" --param magic.rays=1
-    refused 'technique.name=value' "$crate" --param volume.rays
+    refused 1 'broken.glb' "$tmp/broken.glb"
+    refused 2 "choose from volume, ssao, hsao, reference" "$crate" --techniques volume,magic
+    refused 1 "'corner'" "$crate" --camera nowhere
+    refused 2 'field of view' "$crate" --camera 1,1,1,0,0,0,179
+    refused 2 'seven numbers' "$crate" --camera 1,1,1,0,0,0
+    refused 2 'two points' "$crate" --camera 1,1,1,1,1,1,60
+    refused 2 'falloff' "$crate" --falloff sudden
+    refused 2 'rays' "$crate" --param volume.rays=0
+    refused 2 'nonsense' "$crate" --param volume.nonsense=1
+    refused 2 'magic' "$crate" --param magic.rays=1
+    refused 2 'technique.name=value' "$crate" --param volume.rays
+    refused 2 'no such parameter' "$crate" --param volume=3
+    refused 2 'magic' "$tmp/missing.glb" --techniques magic # before the scene is looked for
 }
 
 test_a_camera_that_sees_nothing_is_refused() {

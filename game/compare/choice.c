@@ -1,0 +1,145 @@
+#include "game/compare/choice.h"
+#include "engine/core/log.h"
+#include "game/compare/camera.h"
+#include "game/techniques.h"
+#include "modules/ao/nook_ao.h"
+#include <stdio.h>
+#include <string.h>
+
+/* ---- Techniques ------------------------------------------------------------------------------------------------- */
+
+static const nook_ao_technique *find_technique(const char *name, size_t length)
+{
+    size_t count;
+    const nook_ao_technique *const *techniques = nook_techniques(&count);
+    for (size_t i = 0; i < count; i++) {
+        if (strlen(techniques[i]->name) == length && memcmp(techniques[i]->name, name, length) == 0)
+            return techniques[i];
+    }
+    return NULL;
+}
+
+static const char *list_techniques(char *out, size_t capacity)
+{
+    size_t count, used = 0;
+    const nook_ao_technique *const *techniques = nook_techniques(&count);
+    out[0] = '\0';
+    for (size_t i = 0; i < count && used < capacity; i++)
+        used += (size_t)snprintf(out + used, capacity - used, "%s%s", i ? ", " : "", techniques[i]->name);
+    return out;
+}
+
+static void choose(nook_compare_choice *choice, const nook_ao_technique *technique)
+{
+    for (uint32_t i = 0; i < choice->count; i++) {
+        if (choice->techniques[i] == technique)
+            return;
+    }
+    if (choice->count < NOOK_COMPARE_TECHNIQUES_MAX)
+        choice->techniques[choice->count++] = technique;
+}
+
+nook_result nook_compare_choose(const char *list, nook_compare_choice *out_choice)
+{
+    nook_compare_choice choice = { 0 };
+    size_t count;
+    char names[256];
+    const nook_ao_technique *const *techniques = nook_techniques(&count);
+    for (size_t i = 0; i < count; i++) {
+        if (techniques[i]->exact)
+            choose(&choice, techniques[i]);
+    }
+    for (size_t i = 0; !list && i < count; i++)
+        choose(&choice, techniques[i]);
+    for (const char *at = list; at; at = *at ? at + 1 : NULL) {
+        size_t length = strcspn(at, ",");
+        const nook_ao_technique *technique = find_technique(at, length);
+        if (!technique)
+            return nook_fail(NOOK_E_NOT_FOUND, "technique '%.*s': choose from %s", (int)length, at,
+                             list_techniques(names, sizeof names));
+        choose(&choice, technique);
+        at += length;
+    }
+    *out_choice = choice;
+    return NOOK_OK;
+}
+
+/* ---- Parameters ------------------------------------------------------------------------------------------------- */
+
+/* The table of "ao" or of a technique. */
+typedef struct param_owner {
+    char name[64];
+    const nook_param *params;
+    size_t count;
+} param_owner;
+
+static nook_result find_owner(const char *name, size_t length, param_owner *out)
+{
+    char names[256];
+    const nook_ao_technique *technique = find_technique(name, length);
+    param_owner owner = { .name = "ao" };
+    if (technique) {
+        snprintf(owner.name, sizeof owner.name, "%s", technique->name);
+        owner.params = technique->params;
+        owner.count = technique->param_count;
+    } else if (length == 2 && memcmp(name, "ao", 2) == 0) {
+        owner.params = nook_ao_shared_params(&owner.count);
+    } else {
+        return nook_fail(NOOK_E_NOT_FOUND, "parameters of '%.*s': give technique.name=value; the techniques are ao, %s",
+                         (int)length, name, list_techniques(names, sizeof names));
+    }
+    *out = owner;
+    return NOOK_OK;
+}
+
+static nook_result refuse_param(const param_owner *owner, const char *name)
+{
+    char names[1024] = "";
+    size_t used = 0;
+    for (size_t i = 0; i < owner->count && used < sizeof names; i++)
+        used += (size_t)snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "", owner->params[i].name);
+    return nook_fail(NOOK_E_NOT_FOUND, "%s.%s: no such parameter; there are %s", owner->name, name, names);
+}
+
+nook_result nook_compare_check_param(const char *name, size_t length, const char *value)
+{
+    const char *dot = memchr(name, '.', length);
+    size_t owner_length = dot ? (size_t)(dot - name) : length;
+    char rest[64] = "";
+    param_owner owner;
+    nook_result result = find_owner(name, owner_length, &owner);
+    if (result != NOOK_OK)
+        return result;
+    if (dot)
+        snprintf(rest, sizeof rest, "%.*s", (int)(length - owner_length - 1), dot + 1);
+    const nook_param *param = nook_param_find(owner.params, owner.count, rest);
+    if (!param)
+        return refuse_param(&owner, rest);
+    nook_param alone = *param;
+    int32_t block = 0; /* room for any one value */
+    alone.offset = 0;
+    return nook_param_parse(&alone, owner.name, &block, value);
+}
+
+/* ---- All of it -------------------------------------------------------------------------------------------------- */
+
+static nook_result check_assignment(const char *text)
+{
+    const char *equals = strchr(text, '=');
+    if (!equals)
+        return nook_fail(NOOK_E_ARG, "--param %s: give technique.name=value", text);
+    return nook_compare_check_param(text, (size_t)(equals - text), equals + 1);
+}
+
+nook_result nook_compare_options_check(const nook_compare_options *options, nook_compare_choice *out_choice)
+{
+    static const char falloff[] = "ao.falloff";
+    nook_result result = NOOK_OK;
+    if (options->falloff)
+        result = nook_compare_check_param(falloff, strlen(falloff), options->falloff);
+    for (size_t i = 0; i < options->params.count && result == NOOK_OK; i++)
+        result = check_assignment(options->params.items[i]);
+    if (result == NOOK_OK && options->camera)
+        result = nook_camera_check(options->camera);
+    return result == NOOK_OK ? nook_compare_choose(options->techniques, out_choice) : result;
+}
