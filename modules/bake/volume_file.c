@@ -164,6 +164,20 @@ static uint64_t unpack_bits(const uint8_t *bits, size_t voxel_count, uint8_t *ou
     return occupied;
 }
 
+/* Marching relies on it: the filtered volume must fade out before it ends (shaders/ao/occluders.glsl). */
+static bool outermost_layer_is_empty(const nook_volume_info *info, const uint8_t *voxels)
+{
+    for (uint32_t z = 0; z < info->depth; z++) {
+        for (uint32_t y = 0; y < info->height; y++) {
+            const uint8_t *row = voxels + ((size_t)z * info->height + y) * info->width;
+            bool whole = z == 0 || y == 0 || z == info->depth - 1 || y == info->height - 1;
+            if (row[0] || row[info->width - 1] || (whole && memchr(row, 255, info->width)))
+                return false;
+        }
+    }
+    return true;
+}
+
 static nook_result decode_voxels(const char *name, const uint8_t *file, size_t size, const nook_volume_info *info,
                                  uint8_t *bits, uint8_t *voxels)
 {
@@ -178,6 +192,8 @@ static nook_result decode_voxels(const char *name, const uint8_t *file, size_t s
     if (occupied != info->occupied)
         return nook_fail(NOOK_E_FORMAT, "%s: %llu voxels occupied, its header promises %llu", name,
                          (unsigned long long)occupied, (unsigned long long)info->occupied);
+    if (!outermost_layer_is_empty(info, voxels))
+        return nook_fail(NOOK_E_FORMAT, "%s: voxels are set in its outermost layer; bake it again", name);
     return NOOK_OK;
 }
 

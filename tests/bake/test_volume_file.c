@@ -19,7 +19,7 @@ static void swallow(void *user, nook_log_level level, const char *file, int line
     ++*(int *)user;
 }
 
-/* A 5x4x3 volume (60 voxels: the last byte of bits is not full) with every third voxel occupied. */
+/* A 5x4x3 volume (60 voxels: the last byte of bits is not full) with four of its six inner voxels occupied. */
 static nook_volume make_volume(void)
 {
     nook_volume volume = { .info = { .kind = NOOK_VOLUME_BINARY,
@@ -31,8 +31,9 @@ static nook_volume make_volume(void)
                                      .content_hash = 0x0123456789abcdefu },
                            .voxels = calloc(60, 1) };
     assert_non_null(volume.voxels);
-    for (int i = 0; i < 60; i += 3, volume.info.occupied++)
-        volume.voxels[i] = 255;
+    static const int occupied[] = { 26, 28, 31, 32 };
+    for (size_t i = 0; i < 4; i++, volume.info.occupied++)
+        volume.voxels[occupied[i]] = 255;
     return volume;
 }
 
@@ -126,7 +127,7 @@ static void test_volume_comes_back_as_it_was(void **state)
     assert_true(back.info.voxel_size == 0.25);
     assert_memory_equal(back.info.origin, volume.info.origin, sizeof back.info.origin);
     assert_true(back.info.content_hash == 0x0123456789abcdefu);
-    assert_int_equal(back.info.occupied, 20);
+    assert_int_equal(back.info.occupied, 4);
     nook_volume_free(&back);
     nook_volume_free(&volume);
     free(file.bytes);
@@ -142,7 +143,7 @@ static void test_header_stands_where_the_document_says(void **state)
     assert_int_equal(file.bytes[16], 4);
     assert_int_equal(file.bytes[20], 3);
     assert_memory_equal(file.bytes + 56, "\xef\xcd\xab\x89\x67\x45\x23\x01", 8);
-    assert_int_equal(file.bytes[64], 20);
+    assert_int_equal(file.bytes[64], 4);
     assert_int_equal(file.bytes[72], 8);
     assert_int_equal(file.bytes[80], file.size - HEADER);
     image sealed = { malloc(file.size), file.size };
@@ -161,7 +162,7 @@ static void test_info_is_read_without_voxels(void **state)
     nook_volume_info info;
     assert_int_equal(nook_volume_decode_info("v.nkv", file.bytes, file.size, &info), NOOK_OK);
     assert_int_equal(info.width, 5);
-    assert_int_equal(info.occupied, 20);
+    assert_int_equal(info.occupied, 4);
     free(file.bytes);
 }
 
@@ -263,7 +264,7 @@ static void test_volume_read_refuses_bits_behind_the_last_voxel(void **state)
     (void)state;
     nook_volume volume = make_volume();
     volume.info.width = 4; /* 48 voxels; the same payload must not pass for it */
-    volume.info.occupied = 16;
+    volume.info.occupied = 4;
     image shorter = encode(&volume), file = make_file();
     memcpy(file.bytes + 12, shorter.bytes + 12, 4);
     memcpy(file.bytes + 64, shorter.bytes + 64, 16);
@@ -272,22 +273,33 @@ static void test_volume_read_refuses_bits_behind_the_last_voxel(void **state)
     free(shorter.bytes);
     free(file.bytes);
 
-    /* 59 voxels need the same 8 bytes as 60. */
-    volume.info = (nook_volume_info){ NOOK_VOLUME_BINARY, 1, 1, 59, 1.0, { 0, 0, 0 }, 0, 1 };
-    memset(volume.voxels, 0, 60);
-    volume.voxels[0] = 255;
-    shorter = encode(&volume);
-    volume.info.depth = 60;
-    volume.info.occupied = 2;
-    volume.voxels[59] = 255;
+    /* 63 voxels need the same 8 bytes as 64. */
+    uint8_t voxels[64] = { [13] = 255, [63] = 255 };
+    volume.info = (nook_volume_info){ NOOK_VOLUME_BINARY, 4, 4, 4, 1.0, { 0, 0, 0 }, 0, 2 };
+    free(volume.voxels);
+    volume.voxels = voxels;
     file = encode(&volume);
-    file.bytes[20] = 59;
+    file.bytes[12] = file.bytes[16] = 3; /* 13 is the middle of its second slice */
+    file.bytes[20] = 7;
     file.bytes[64] = 1;
     seal(&file);
     assert_refused(file.bytes, file.size);
-    free(shorter.bytes);
     free(file.bytes);
-    nook_volume_free(&volume);
+}
+
+static void test_volume_read_refuses_voxels_in_the_outermost_layer(void **state)
+{
+    (void)state;
+    static const int outermost[] = { 0, 59, 2, 25, 29, 22, 37, 47 }; /* corners, and one on each face */
+    for (size_t i = 0; i < sizeof outermost / sizeof *outermost; i++) {
+        nook_volume volume = make_volume();
+        volume.voxels[outermost[i]] = 255;
+        volume.info.occupied++;
+        image file = encode(&volume);
+        assert_refused(file.bytes, file.size);
+        free(file.bytes);
+        nook_volume_free(&volume);
+    }
 }
 
 static void test_other_version_asks_to_bake_again(void **state)
@@ -345,6 +357,7 @@ int main(void)
         cmocka_unit_test(test_volume_read_survives_every_changed_byte_under_a_right_checksum),
         cmocka_unit_test(test_volume_read_refuses_absurd_numbers),
         cmocka_unit_test(test_volume_read_refuses_bits_behind_the_last_voxel),
+        cmocka_unit_test(test_volume_read_refuses_voxels_in_the_outermost_layer),
         cmocka_unit_test(test_other_version_asks_to_bake_again),
         cmocka_unit_test(test_encoding_refuses_what_is_not_a_binary_volume),
     };
