@@ -45,7 +45,7 @@ static nook_result open_devices(nook_stage *stage, const nook_stage_desc *desc)
     if (result != NOOK_OK)
         return result;
     stage->shows = desc->want_window && nook_context_backend(stage->context) == NOOK_BACKEND_WINDOW;
-    const nook_gpu_desc gpu = { nook_context_get_proc(stage->context), desc->root };
+    const nook_gpu_desc gpu = { nook_context_get_proc(stage->context), desc->root, .log_debug_output = true };
     result = nook_gpu_create(&gpu, &stage->gpu);
     if (result != NOOK_OK)
         return result;

@@ -91,7 +91,9 @@ nook_result nook_gpu_create(const nook_gpu_desc *desc, nook_gpu **out_gpu)
         return result;
     }
     read_limits(gpu);
-    listen_to_driver(gpu->gl);
+    gpu->cache->listens = desc->log_debug_output;
+    if (gpu->cache->listens)
+        listen_to_driver(gpu->gl);
     *out_gpu = gpu;
     return NOOK_OK;
 }
@@ -101,7 +103,8 @@ void nook_gpu_destroy(nook_gpu *gpu)
     if (!gpu)
         return;
     nook_program_cache_free(gpu);
-    gpu->gl->DebugMessageCallback(NULL, NULL);
+    if (gpu->cache->listens)
+        gpu->gl->DebugMessageCallback(NULL, NULL);
     release(gpu);
 }
 

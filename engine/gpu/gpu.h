@@ -71,11 +71,13 @@ struct nook_gpu {
 typedef struct nook_gpu_desc {
     void (*(*get_proc)(const char *name))(void); /**< nook_context_get_proc. */
     const char
-        *source_root; /**< Folder that holds shaders/ and modules/; every shader path is relative to it. Copied. */
+        *source_root;      /**< Folder that holds shaders/ and modules/; every shader path is relative to it. Copied. */
+    bool log_debug_output; /**< True: takes GL's debug callback, of which a context has but one, and its filters. */
 } nook_gpu_desc;
 
 /**
- * Loads GL and checks the version. From then on what the driver calls an error or of high severity reaches the log.
+ * Loads GL and checks the version. With log_debug_output what the driver calls an error or of high severity reaches the log
+ * from then on.
  * @return NOOK_E_DEVICE or NOOK_E_MEMORY; *out_gpu is NULL then
  */
 nook_result nook_gpu_create(const nook_gpu_desc *desc, nook_gpu **out_gpu);

@@ -15,6 +15,7 @@ struct nook_gpu_cache {
     nook_program_entry *programs; /**< Owned; a few dozen at most, searched in order. */
     size_t program_count, program_capacity;
     float max_anisotropy; /**< 1: the driver has none. */
+    bool listens;         /**< The debug callback is ours. */
     bool error_pending;   /**< An error was logged that nook_gpu_check has not told yet. */
 };
 

@@ -163,6 +163,8 @@ void nook_texture_write_box(nook_gpu *gpu, nook_texture texture, const uint32_t 
            (uint64_t)origin[2] + extent[2] <= texture.depth);
     assert(size == (size_t)extent[0] * extent[1] * extent[2] * texel_size(gl_format, gl_type));
     (void)size;
+    GLint alignment; /* the host's own is put back */
+    gl->GetIntegerv(GL_UNPACK_ALIGNMENT, &alignment);
     gl->PixelStorei(GL_UNPACK_ALIGNMENT, 1);
     if (texture.target == GL_TEXTURE_3D)
         gl->TextureSubImage3D(texture.id, 0, (GLint)origin[0], (GLint)origin[1], (GLint)origin[2], (GLsizei)extent[0],
@@ -170,16 +172,20 @@ void nook_texture_write_box(nook_gpu *gpu, nook_texture texture, const uint32_t 
     else
         gl->TextureSubImage2D(texture.id, 0, (GLint)origin[0], (GLint)origin[1], (GLsizei)extent[0], (GLsizei)extent[1],
                               gl_format, gl_type, data);
+    gl->PixelStorei(GL_UNPACK_ALIGNMENT, alignment);
 }
 
 void nook_texture_read(nook_gpu *gpu, nook_texture texture, uint32_t gl_format, uint32_t gl_type, void *out,
                        size_t out_size)
 {
     assert(out_size >= (size_t)texture.width * texture.height * texture.depth * texel_size(gl_format, gl_type));
+    GLint alignment;
+    gpu->gl->GetIntegerv(GL_PACK_ALIGNMENT, &alignment);
     gpu->gl->PixelStorei(GL_PACK_ALIGNMENT, 1);
     /* The driver counts in int; it never writes more than the texture holds, so a smaller bound is safe. */
     gpu->gl->GetTextureImage(texture.id, 0, gl_format, gl_type, out_size > INT32_MAX ? INT32_MAX : (GLsizei)out_size,
                              out);
+    gpu->gl->PixelStorei(GL_PACK_ALIGNMENT, alignment);
 }
 
 void nook_bind_texture(nook_gpu *gpu, uint32_t unit, nook_texture texture)

@@ -42,7 +42,7 @@ static void test_gpu_create_refuses_a_thread_without_a_context(void **state)
     int lines = 0;
     nook_gpu *gpu = NULL;
     nook_log_set_sink(ignore_log, &lines);
-    nook_result result = nook_gpu_create(&(nook_gpu_desc){ get_proc, "." }, &gpu);
+    nook_result result = nook_gpu_create(&(nook_gpu_desc){ .get_proc = get_proc, .source_root = "." }, &gpu);
     nook_log_set_sink(NULL, NULL);
     assert_int_equal(result, NOOK_E_DEVICE);
     assert_null(gpu);
@@ -127,6 +127,26 @@ static void test_texture_write_box_touches_only_its_box(void **state)
                 assert_int_equal(texels[z][y][x], inside ? (int)(1 + (x - 1) + 3 * (z - 3)) : 0);
             }
     nook_texture_destroy(gpu, &texture);
+}
+
+static void test_textures_are_moved_without_changing_the_hosts_alignments(void **state)
+{
+    nook_gpu *gpu = test_gpu_of(state);
+    uint8_t texels[9] = { 0 };
+    GLint pack, unpack;
+    nook_texture texture;
+    assert_int_equal(nook_texture_create_2d(gpu, GL_R8, 3, 3, GL_NEAREST, &texture), NOOK_OK);
+    gpu->gl->PixelStorei(GL_PACK_ALIGNMENT, 8);
+    gpu->gl->PixelStorei(GL_UNPACK_ALIGNMENT, 2);
+    nook_texture_write(gpu, texture, GL_RED, GL_UNSIGNED_BYTE, texels, sizeof texels);
+    nook_texture_read(gpu, texture, GL_RED, GL_UNSIGNED_BYTE, texels, sizeof texels);
+    gpu->gl->GetIntegerv(GL_PACK_ALIGNMENT, &pack);
+    gpu->gl->GetIntegerv(GL_UNPACK_ALIGNMENT, &unpack);
+    gpu->gl->PixelStorei(GL_PACK_ALIGNMENT, 4);
+    gpu->gl->PixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    nook_texture_destroy(gpu, &texture);
+    assert_int_equal(pack, 8);
+    assert_int_equal(unpack, 2);
 }
 
 static void test_mipped_texture_averages_its_texels(void **state)
@@ -243,6 +263,7 @@ int main(void)
         TEST(test_compute_writes_a_texture_that_is_read_back),
         TEST(test_volume_is_sampled_trilinearly),
         TEST(test_texture_write_box_touches_only_its_box),
+        TEST(test_textures_are_moved_without_changing_the_hosts_alignments),
         TEST(test_mipped_texture_averages_its_texels),
         TEST(test_texture_create_refuses_sizes_and_formats_it_cannot_have),
         TEST(test_buffer_update_replaces_only_its_bytes),

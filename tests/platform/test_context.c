@@ -27,7 +27,7 @@ static void assert_computes(nook_context *context)
     nook_gpu *gpu = NULL;
     nook_texture texture;
     nook_program program;
-    const nook_gpu_desc desc = { nook_context_get_proc(context), test_gpu_root() };
+    const nook_gpu_desc desc = { nook_context_get_proc(context), test_gpu_root(), .log_debug_output = true };
     assert_int_equal(nook_gpu_create(&desc, &gpu), NOOK_OK);
     assert_int_equal(nook_texture_create_2d(gpu, GL_R32F, SIDE, SIDE, GL_NEAREST, &texture), NOOK_OK);
     assert_int_equal(nook_program_compute(gpu, "tests/gpu/shaders/gradient.comp.glsl", "#define SCALE 2.0\n", &program),

@@ -139,7 +139,10 @@ static void test_window_shows_what_was_drawn(void **state)
     const float orange[4] = { 1, 0.5f, 0, 1 };
     uint8_t pixel[4] = { 0 };
     assert_int_equal(nook_context_backend(context), NOOK_BACKEND_WINDOW);
-    assert_int_equal(nook_gpu_create(&(nook_gpu_desc){ nook_context_get_proc(context), test_gpu_root() }, &gpu),
+    assert_int_equal(nook_gpu_create(&(nook_gpu_desc){ .get_proc = nook_context_get_proc(context),
+                                                       .source_root = test_gpu_root(),
+                                                       .log_debug_output = true },
+                                     &gpu),
                      NOOK_OK);
     nook_context_poll(context, &input);
     assert_int_equal(input.width, 320);
@@ -175,7 +178,10 @@ static void test_ending_an_older_window_leaves_the_current_one_alive(void **stat
     nook_context *first = open_window(true), *second = open_window(true);
     nook_gpu *gpu = NULL;
     nook_context_destroy(first);
-    assert_int_equal(nook_gpu_create(&(nook_gpu_desc){ nook_context_get_proc(second), test_gpu_root() }, &gpu),
+    assert_int_equal(nook_gpu_create(&(nook_gpu_desc){ .get_proc = nook_context_get_proc(second),
+                                                       .source_root = test_gpu_root(),
+                                                       .log_debug_output = true },
+                                     &gpu),
                      NOOK_OK);
     assert_false(nook_gpu_check(gpu, "the test"));
     nook_gpu_destroy(gpu);

@@ -13,7 +13,9 @@ nook_result test_gpu_create(const char *source_root, test_gpu *out_test_gpu)
     nook_result result = nook_context_create(&(nook_context_desc){ .backend = NOOK_BACKEND_OSMESA }, &test.context);
     if (result != NOOK_OK)
         return result;
-    const nook_gpu_desc desc = { nook_context_get_proc(test.context), source_root ? source_root : test_gpu_root() };
+    const nook_gpu_desc desc = { .get_proc = nook_context_get_proc(test.context),
+                                 .source_root = source_root ? source_root : test_gpu_root(),
+                                 .log_debug_output = true };
     result = nook_gpu_create(&desc, &test.gpu);
     if (result != NOOK_OK) {
         nook_context_destroy(test.context);
