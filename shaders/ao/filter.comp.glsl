@@ -15,6 +15,7 @@ layout(binding = 4) uniform sampler2D visibility_trace;
 layout(binding = 0, r32f) uniform writeonly image2D visibility_out;
 
 // A golden-angle disc: radius sqrt((i + 0.5) / 16); the 17th sample is the centre.
+const int FILTER_NONE = 0, FILTER_DISC = 1, FILTER_TILE = 2; // ao.filter
 const int RING = 16;
 const float GOLDEN_ANGLE = 2.39996323;
 const float SLANT_MIN = 0.5; // a disc of 4 pixels then still covers the 4x4 pixels that share one set of rays
@@ -25,10 +26,16 @@ struct Guide {
     float footprint; // metres
 };
 
-float guide_weight(Guide guide, ivec2 q, float depth)
+// In trace pixels times ao.filter_depth; never negative.
+float plane_distance(Guide guide, ivec2 q, float depth)
 {
     vec3 offset = view_position(q, depth) - guide.position;
-    float plane = dot(guide.normal, offset) / (guide.footprint * float(frame.scale) * frame.filter_depth);
+    return abs(dot(guide.normal, offset)) / (guide.footprint * float(frame.scale) * frame.filter_depth);
+}
+
+float guide_weight(Guide guide, ivec2 q, float depth)
+{
+    float plane = plane_distance(guide, q, depth);
     float facing = max(dot(guide.normal, nook_octahedral_decode(texelFetch(normal_trace, q, 0).xy)), 0.0);
     return exp(-plane * plane) * pow(max(facing, 1e-6), frame.filter_normal);
 }
@@ -105,14 +112,35 @@ void add_tile(inout Mean mean, Guide guide, vec2 centre)
     }
 }
 
+// When no sample lies on the pixel's own surface (the bottom of a joint that the trace has jumped over), one alone would show
+// its noise: all around have a say, those near the pixel's plane most.
+void add_around(inout Mean mean, Guide guide, vec2 centre)
+{
+    ivec2 base = ivec2(round(centre));
+    for (int i = 0; i < 25; i++) {
+        ivec2 q = base + ivec2(i % 5 - 2, i / 5 - 2);
+        if (any(lessThan(q, ivec2(0))) || any(greaterThanEqual(q, frame.size)))
+            continue;
+        float depth = texelFetch(depth_trace, q, 0).r;
+        vec2 covered = clamp(2.5 - abs(vec2(q) - centre), 0.0, 1.0);
+        float weight = covered.x * covered.y / (1.0 + pow(plane_distance(guide, q, depth), 2.0));
+        if (!(depth > 0.0 && weight > 0.0))
+            continue;
+        mean.sum += weight * (texelFetch(visibility_trace, q, 0).r - mean.reference);
+        mean.weights += weight;
+    }
+}
+
 float filtered(vec2 centre, Guide guide, ivec2 p)
 {
     ivec2 start = frame.scale == 1 ? p : nearest_sample(centre, guide);
     Mean mean = Mean(texelFetch(visibility_trace, start, 0).r, 0.0, 0.0);
-    if (frame.filter_kind == 1)
+    if (frame.filter_kind == FILTER_DISC)
         add_disc(mean, guide, centre, p);
-    else if (frame.filter_kind == 2)
+    else if (frame.filter_kind == FILTER_TILE)
         add_tile(mean, guide, centre);
+    if (frame.filter_kind != FILTER_NONE && mean.weights <= 0.0)
+        add_around(mean, guide, centre);
     return mean.weights > 0.0 ? mean.reference + mean.sum / mean.weights : mean.reference;
 }
 

@@ -150,33 +150,32 @@ static void test_filter_leaks_nothing_across_a_right_angle(void **state)
     }
 }
 
-static float paint_pattern(const ao_view *view, uint32_t x, uint32_t y)
+static float paint_checkers(const ao_view *view, uint32_t x, uint32_t y)
 {
     (void)view;
-    return (float)(x * 16 + y) / 256.0f;
+    return (float)((x + y) % 2);
 }
 
-static void test_filter_takes_the_nearest_sample_when_none_is_on_the_surface(void **state)
+static void test_filter_averages_what_is_around_when_no_sample_is_on_the_surface(void **state)
 {
-    /* The trace at half size picks odd columns: nothing it saw lies on the even ones. */
-    ao_view *view = start(state, 32, 16);
-    ao_view_param(view, "ao.scale", "half");
-    ao_view_param(view, "ao.filter", "disc");
-    for (uint32_t i = 0; i < 32 * 16; i++)
-        ao_view_set_pixel(view, i % 32, i / 32, i % 2 ? 50.0 : 1.0, facing);
-    view->paint = paint_pattern;
-    ao_view_record(view, "probe");
-    for (uint32_t i = 0; i < 32 * 16; i++) {
-        uint32_t x = i % 32, y = i / 32, right = x / 2, left = right ? right - 1 : 0;
-        if (x % 2)
-            continue;
-        uint32_t below = (y ? y - 1 : 0) / 2, above = y / 2; /* the trace rows of pixel rows 1, 3, 5, ... */
-        float got = view->visibility[i];
-        int nearest = 0;
-        for (uint32_t k = 0; k < 4; k++)
-            nearest |= got == paint_pattern(view, k & 1 ? right : left, k & 2 ? above : below);
-        if (!nearest)
-            fail_msg("pixel (%u, %u): %g is none of its four neighbours", x, y, got);
+    /* The trace picks column and row scale / 2 of each block: nothing it saw lies on the first columns. */
+    for (uint32_t k = 0; k < 4; k++) {
+        uint32_t scale = k < 2 ? 2 : 4;
+        ao_view *view = start(state, 48, 32);
+        ao_view_param(view, "ao.scale", scales[scale / 2]);
+        ao_view_param(view, "ao.filter", filters[1 + k % 2]);
+        for (uint32_t i = 0; i < 48 * 32; i++)
+            ao_view_set_pixel(view, i % 48, i / 48, i % 48 % scale ? 50.0 : 1.0, facing);
+        view->paint = paint_checkers;
+        ao_view_record(view, "probe");
+        for (uint32_t i = 0; i < 48 * 32; i++) {
+            uint32_t x = i % 48, y = i / 48;
+            if (x % scale || x < 3 * scale || x >= 48 - 3 * scale || y < 3 * scale || y >= 32 - 3 * scale)
+                continue;
+            if (fabsf(view->visibility[i] - 0.5f) > 0.1f)
+                fail_msg("scale %u, %s, pixel (%u, %u): %g shows one sample", scale, filters[1 + k % 2], x, y,
+                         view->visibility[i]);
+        }
     }
 }
 
@@ -272,7 +271,7 @@ int main(void)
         cmocka_unit_test(test_filter_gives_a_constant_back_bit_for_bit_and_background_as_one),
         cmocka_unit_test(test_filter_leaks_nothing_across_a_step_of_depth),
         cmocka_unit_test(test_filter_leaks_nothing_across_a_right_angle),
-        cmocka_unit_test(test_filter_takes_the_nearest_sample_when_none_is_on_the_surface),
+        cmocka_unit_test(test_filter_averages_what_is_around_when_no_sample_is_on_the_surface),
         cmocka_unit_test(test_filter_of_a_ramp_stays_near_it_at_every_scale),
         cmocka_unit_test(test_filter_never_writes_nan_whatever_the_buffers_hold),
         cmocka_unit_test(test_techniques_never_write_nan_whatever_the_buffers_hold),
