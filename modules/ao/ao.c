@@ -178,7 +178,7 @@ nook_result nook_ao_submit_occluders(nook_ao *ao, const nook_ao_occluder *occlud
                          ao->occluder_max);
     for (uint32_t i = 0; i < count; i++) {
         uint32_t volume = occluders[i].volume.id, mesh = occluders[i].mesh.id;
-        if ((volume && !volume_atlas_find(&ao->atlas, volume)) || (mesh && !ao_mesh_exists(ao, mesh)))
+        if ((volume && !volume_atlas_find(&ao->atlas, volume)) || (mesh && ao_mesh_index(ao, mesh) == UINT32_MAX))
             return nook_fail(NOOK_E_ARG, "occluder %u of %u: its volume %u or mesh %u has been removed", i, count,
                              volume, mesh);
     }

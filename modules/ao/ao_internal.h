@@ -39,7 +39,8 @@ typedef struct ao_gpu_occluder {
 typedef struct ao_targets {
     nook_texture depth, normal, visibility;                   /**< Full size. */
     nook_texture trace_depth, trace_normal, trace_visibility; /**< Trace size; depth and normal id 0 at scale 1. */
-    uint32_t width, height, scale;
+    uint32_t width, height;                                   /**< Of the full-size ones; 0 before there are any. */
+    uint32_t scale;                                           /**< Of the trace's; 0 before there are any. */
 } ao_targets;
 
 struct nook_ao {
@@ -71,6 +72,6 @@ void ao_targets_release(nook_gpu *gpu, ao_targets *targets);
 uint32_t ao_collect_volumes(nook_ao *ao, const nook_matrix *view_from_world);
 /** Composes this frame's traced instances into ao->instances and ao->mesh_views. @return how many instances */
 uint32_t ao_collect_meshes(nook_ao *ao, const nook_matrix *view_from_world);
-/** By id. */
-int ao_mesh_exists(const nook_ao *ao, uint32_t id);
+/** By id, in the time of a binary search. @return UINT32_MAX when there is none */
+uint32_t ao_mesh_index(const nook_ao *ao, uint32_t id);
 void ao_meshes_release(nook_ao *ao);

@@ -11,15 +11,14 @@ typedef struct frame_block {
     int32_t falloff;
     float falloff_tau;
     uint32_t seed;
-    int32_t occluder_count;
+    int32_t has_normal;
     int32_t counting;
     float filter_radius;
     float filter_depth;
     float filter_normal;
     float depth_to_distance[2];
     float depth_background;
-    int32_t has_normal;
     int32_t filter_kind;
-    int32_t padding[1];        /**< A vec4 starts at a multiple of 16 bytes. */
+    int32_t padding[2];        /**< A vec4 starts at a multiple of 16 bytes. */
     float view_from_world[12]; /**< Three columns of four. */
 } frame_block;

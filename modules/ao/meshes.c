@@ -65,16 +65,28 @@ nook_result nook_ao_add_mesh(nook_ao *ao, const float *positions, uint32_t verte
     return NOOK_OK;
 }
 
+/** Meshes stand in the order of their ids: they are added at the end, and removal keeps the order. */
+uint32_t ao_mesh_index(const nook_ao *ao, uint32_t id)
+{
+    uint32_t first = 0, end = ao->mesh_count;
+    while (first < end) {
+        uint32_t middle = first + (end - first) / 2;
+        if (ao->meshes[middle].view.id < id)
+            first = middle + 1;
+        else
+            end = middle;
+    }
+    return first < ao->mesh_count && ao->meshes[first].view.id == id ? first : UINT32_MAX;
+}
+
 void nook_ao_remove_mesh(nook_ao *ao, nook_ao_mesh mesh)
 {
-    for (uint32_t i = 0; i < ao->mesh_count; i++) {
-        if (ao->meshes[i].view.id != mesh.id)
-            continue;
-        free(ao->meshes[i].positions);
-        free(ao->meshes[i].indices);
-        ao->meshes[i] = ao->meshes[--ao->mesh_count];
+    uint32_t i = ao_mesh_index(ao, mesh.id);
+    if (i == UINT32_MAX)
         return;
-    }
+    free(ao->meshes[i].positions);
+    free(ao->meshes[i].indices);
+    memmove(ao->meshes + i, ao->meshes + i + 1, (--ao->mesh_count - i) * sizeof *ao->meshes);
 }
 
 void ao_meshes_release(nook_ao *ao)

@@ -58,7 +58,7 @@ typedef struct nook_ao_occluder {
 } nook_ao_occluder;
 
 typedef struct nook_ao_frame {
-    double view_from_world[16]; /**< Rigid. */
+    double view_from_world[16]; /**< Rigid: to 1e-5. */
     double clip_from_view[16];  /**< Perspective, depth in [0, 1]; normal or reversed-Z is told from it. */
     nook_ao_texture depth;      /**< Required. Device depth at full size, row 0 at the bottom. */
     nook_ao_texture normal; /**< World space, octahedral RG (shaders/nook/octahedral.glsl). None: rebuilt from depth.
@@ -120,7 +120,11 @@ const struct nook_param *nook_ao_shared_params(size_t *out_count);
  */
 nook_result nook_ao_submit_occluders(nook_ao *ao, const nook_ao_occluder *occluders, uint32_t count);
 
-/** Records prepare, trace, filter and upscale. @return NOOK_E_ARG, NOOK_E_DEVICE */
+/**
+ * Records prepare, trace, filter and upscale.
+ * @return NOOK_E_ARG; NOOK_E_MEMORY; NOOK_E_DEVICE: also when GL raised an error meanwhile, and then the visibility is undefined.
+ *         Errors that GL held before are logged and forgotten.
+ */
 nook_result nook_ao_record(nook_ao *ao, const nook_ao_frame *frame);
 
 /** Full-resolution R32F visibility of the last record; 1 where there is no geometry. Valid until set_size or destroy. */

@@ -77,27 +77,13 @@ uint32_t ao_collect_volumes(nook_ao *ao, const nook_matrix *view_from_world)
     return count;
 }
 
-static uint32_t mesh_index(const nook_ao *ao, uint32_t id)
-{
-    for (uint32_t i = 0; i < ao->mesh_count; i++) {
-        if (ao->meshes[i].view.id == id)
-            return i;
-    }
-    return UINT32_MAX;
-}
-
-int ao_mesh_exists(const nook_ao *ao, uint32_t id)
-{
-    return mesh_index(ao, id) != UINT32_MAX;
-}
-
 uint32_t ao_collect_meshes(nook_ao *ao, const nook_matrix *view_from_world)
 {
     uint32_t count = 0;
     for (uint32_t i = 0; i < ao->mesh_count; i++)
         ao->mesh_views[i] = ao->meshes[i].view;
     for (uint32_t i = 0; i < ao->occluder_count; i++) {
-        uint32_t mesh = mesh_index(ao, ao->occluders[i].mesh.id);
+        uint32_t mesh = ao_mesh_index(ao, ao->occluders[i].mesh.id);
         nook_matrix world_from_mesh = matrix_of(ao->occluders[i].world_from_mesh), unused;
         if (mesh == UINT32_MAX || !nook_matrix_inverse_affine(&world_from_mesh, &unused))
             continue;

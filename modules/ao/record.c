@@ -8,6 +8,8 @@
 
 _Static_assert(offsetof(frame_block, view_from_world) == 96, "std140 places view_from_world at 96");
 
+static const double RIGID_TOLERANCE = 1e-5; /* what a product of a few matrices in float leaves */
+
 static nook_texture host_texture(nook_ao_texture texture)
 {
     return (nook_texture){
@@ -29,6 +31,19 @@ static int all_finite(const double m[16])
     return finite;
 }
 
+/** Columns of unit length at right angles (mirrored is allowed), and nothing projective. */
+static int is_rigid(const double m[16])
+{
+    for (int a = 0; a < 3; a++) {
+        for (int b = a; b < 3; b++) {
+            const double *u = m + 4 * a, *v = m + 4 * b;
+            if (!(fabs(u[0] * v[0] + u[1] * v[1] + u[2] * v[2] - (a == b)) <= RIGID_TOLERANCE))
+                return 0;
+        }
+    }
+    return m[3] == 0.0 && m[7] == 0.0 && m[11] == 0.0 && m[15] == 1.0;
+}
+
 static nook_result check_frame(const nook_ao *ao, const nook_ao_frame *frame)
 {
     const double *p = frame->clip_from_view;
@@ -42,6 +57,8 @@ static nook_result check_frame(const nook_ao *ao, const nook_ao_frame *frame)
                          frame->normal.height, ao->width, ao->height);
     if (!all_finite(p) || !all_finite(frame->view_from_world))
         return nook_fail(NOOK_E_ARG, "nook_ao_record: clip_from_view or view_from_world is not finite");
+    if (!is_rigid(frame->view_from_world))
+        return nook_fail(NOOK_E_ARG, "nook_ao_record: view_from_world is not rigid; scale the world, not the camera");
     if (p[11] != -1.0 || p[15] != 0.0 || !(fabs(p[0]) > 0.0) || !(fabs(p[5]) > 0.0) || p[14] == 0.0)
         return nook_fail(NOOK_E_ARG, "nook_ao_record: clip_from_view is not a perspective with w = -z");
     return NOOK_OK;
@@ -62,7 +79,7 @@ static void set_projection(const double p[16], frame_block *block)
     block->depth_background = p[14] > 0.0 ? 0.0f : 1.0f;
 }
 
-static frame_block make_block(const nook_ao *ao, const nook_ao_frame *frame, uint32_t scale, uint32_t occluder_count)
+static frame_block make_block(const nook_ao *ao, const nook_ao_frame *frame, uint32_t scale)
 {
     const ao_shared *shared = &ao->shared;
     frame_block block = {
@@ -73,7 +90,6 @@ static frame_block make_block(const nook_ao *ao, const nook_ao_frame *frame, uin
         .falloff = shared->falloff,
         .falloff_tau = shared->falloff_tau,
         .seed = frame->index,
-        .occluder_count = (int32_t)occluder_count,
         .counting = shared->count,
         .filter_radius = shared->filter_radius,
         .filter_depth = shared->filter_depth,
@@ -89,43 +105,38 @@ static frame_block make_block(const nook_ao *ao, const nook_ao_frame *frame, uin
     return block;
 }
 
-static nook_result dispatch_prepare(nook_ao *ao, const nook_ao_frame *frame)
+/** Runs a shader of 16 x 8 pixels a group with what is bound. */
+static nook_result dispatch_over(nook_ao *ao, const char *path, uint32_t width, uint32_t height)
 {
     nook_program program;
-    nook_result result = nook_program_compute(ao->gpu, "shaders/ao/prepare.comp.glsl", "", &program);
-    if (result != NOOK_OK)
-        return result;
+    nook_result result = nook_program_compute(ao->gpu, path, "", &program);
+    if (result == NOOK_OK)
+        nook_dispatch(ao->gpu, program, nook_groups(width, 16), nook_groups(height, 8), 1);
+    return result;
+}
+
+static nook_result dispatch_prepare(nook_ao *ao, const nook_ao_frame *frame)
+{
     nook_bind_uniform(ao->gpu, 0, ao->frame);
     nook_bind_texture(ao->gpu, 0, host_texture(frame->depth));
     nook_bind_texture(ao->gpu, 1, host_texture(frame->normal.native ? frame->normal : frame->depth));
     nook_bind_image(ao->gpu, 0, ao->targets.depth, GL_WRITE_ONLY);
     nook_bind_image(ao->gpu, 1, ao->targets.normal, GL_WRITE_ONLY);
-    nook_dispatch(ao->gpu, program, nook_groups(ao->width, 16), nook_groups(ao->height, 8), 1);
-    return NOOK_OK;
+    return dispatch_over(ao, "shaders/ao/prepare.comp.glsl", ao->width, ao->height);
 }
 
 static nook_result dispatch_pick(nook_ao *ao)
 {
-    nook_program program;
-    nook_result result = nook_program_compute(ao->gpu, "shaders/ao/pick.comp.glsl", "", &program);
-    if (result != NOOK_OK)
-        return result;
     const ao_targets *targets = &ao->targets;
     nook_bind_texture(ao->gpu, 0, targets->depth);
     nook_bind_texture(ao->gpu, 1, targets->normal);
     nook_bind_image(ao->gpu, 0, targets->trace_depth, GL_WRITE_ONLY);
     nook_bind_image(ao->gpu, 1, targets->trace_normal, GL_WRITE_ONLY);
-    nook_dispatch(ao->gpu, program, nook_groups(targets->trace_depth.width, 16),
-                  nook_groups(targets->trace_depth.height, 8), 1);
-    return NOOK_OK;
+    return dispatch_over(ao, "shaders/ao/pick.comp.glsl", targets->trace_depth.width, targets->trace_depth.height);
 }
 
 static nook_result dispatch_filter(nook_ao *ao)
 {
-    nook_program program;
-    nook_result result = nook_program_compute(ao->gpu, "shaders/ao/filter.comp.glsl", "", &program);
-    if (result != NOOK_OK)
-        return result;
     const ao_targets *targets = &ao->targets;
     nook_bind_uniform(ao->gpu, 0, ao->frame);
     nook_bind_texture(ao->gpu, 0, targets->depth);
@@ -134,8 +145,7 @@ static nook_result dispatch_filter(nook_ao *ao)
     nook_bind_texture(ao->gpu, 3, targets->scale > 1 ? targets->trace_normal : targets->normal);
     nook_bind_texture(ao->gpu, 4, targets->trace_visibility);
     nook_bind_image(ao->gpu, 0, targets->visibility, GL_WRITE_ONLY);
-    nook_dispatch(ao->gpu, program, nook_groups(ao->width, 16), nook_groups(ao->height, 8), 1);
-    return NOOK_OK;
+    return dispatch_over(ao, "shaders/ao/filter.comp.glsl", ao->width, ao->height);
 }
 
 static nook_result upload_inputs(nook_ao *ao, const ao_slot *slot, const nook_ao_frame *frame, uint32_t scale)
@@ -144,7 +154,7 @@ static nook_result upload_inputs(nook_ao *ao, const ao_slot *slot, const nook_ao
     nook_result result = volume_atlas_flush(&ao->atlas);
     if (result != NOOK_OK)
         return result;
-    frame_block block = make_block(ao, frame, scale, ao->statistics.occluders);
+    frame_block block = make_block(ao, frame, scale);
     nook_buffer_update(ao->gpu, ao->frame, 0, &block, sizeof block);
     nook_buffer_update(ao->gpu, ao->counter, 0, zero, sizeof zero);
     if (slot->technique->params_size)
@@ -208,6 +218,7 @@ nook_result nook_ao_record(nook_ao *ao, const nook_ao_frame *frame)
     nook_result result = check_frame(ao, frame);
     if (result != NOOK_OK)
         return result;
+    nook_gpu_check(ao->gpu, "what was done before nook_ao_record"); /* the host's errors are not ours */
     const ao_slot *slot = &ao->slots[ao->current];
     const nook_ao_technique *technique = slot->technique;
     uint32_t scale = trace_scale(ao, technique), instances = 0;
@@ -232,6 +243,8 @@ nook_result nook_ao_record(nook_ao *ao, const nook_ao_frame *frame)
     result = technique->record(slot->state, slot->params, &pass);
     if (result == NOOK_OK && !direct)
         result = dispatch_filter(ao);
+    if (nook_gpu_check(ao->gpu, "nook_ao_record") && result == NOOK_OK)
+        result = NOOK_E_DEVICE; /* the check has logged what it was */
     return result;
 }
 

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stddef.h>
 
-static uint32_t mix(uint32_t x)
+uint32_t nook_mix_bits(uint32_t x)
 {
     x ^= x >> 16;
     x *= 0x7feb352du;
@@ -39,7 +39,7 @@ static float unit_interval(uint32_t bits)
 
 void nook_sobol_point(uint32_t index, uint32_t seed, float out_point[2])
 {
-    uint32_t shift_x = seed ? mix(seed) : 0, shift_y = seed ? mix(seed ^ 0x9e3779b9u) : 0;
+    uint32_t shift_x = seed ? nook_mix_bits(seed) : 0, shift_y = seed ? nook_mix_bits(seed ^ 0x9e3779b9u) : 0;
     out_point[0] = unit_interval(first_dimension(index) ^ shift_x);
     out_point[1] = unit_interval(second_dimension(index) ^ shift_y);
 }

@@ -13,6 +13,9 @@ extern "C" {
 
 enum { NOOK_DIRECTION_BLOCKS = 16 };
 
+/** A hash whose every bit depends on every bit of x (hash() of shaders/ao/frame.glsl). */
+uint32_t nook_mix_bits(uint32_t x);
+
 /** Point `index` of the (0,2)-sequence, each coordinate in (0, 1), shifted by `seed`. */
 void nook_sobol_point(uint32_t index, uint32_t seed, float out_point[2]);
 

@@ -1,15 +1,24 @@
 #include "modules/ao/ao_internal.h"
 
+static void destroy_trace(nook_gpu *gpu, ao_targets *targets)
+{
+    nook_texture_destroy(gpu, &targets->trace_depth);
+    nook_texture_destroy(gpu, &targets->trace_normal);
+    nook_texture_destroy(gpu, &targets->trace_visibility);
+    targets->scale = 0;
+}
+
 void ao_targets_release(nook_gpu *gpu, ao_targets *targets)
 {
-    nook_texture *all[] = { &targets->depth,       &targets->normal,       &targets->visibility,
-                            &targets->trace_depth, &targets->trace_normal, &targets->trace_visibility };
-    for (size_t i = 0; i < NOOK_COUNT(all); i++)
-        nook_texture_destroy(gpu, all[i]);
+    destroy_trace(gpu, targets);
+    nook_texture_destroy(gpu, &targets->depth);
+    nook_texture_destroy(gpu, &targets->normal);
+    nook_texture_destroy(gpu, &targets->visibility);
     *targets = (ao_targets){ 0 };
 }
 
-static nook_result create_set(nook_gpu *gpu, uint32_t width, uint32_t height, nook_texture *depth, nook_texture *normal)
+static nook_result create_inputs(nook_gpu *gpu, uint32_t width, uint32_t height, nook_texture *depth,
+                                 nook_texture *normal)
 {
     nook_result result = nook_texture_create_2d(gpu, GL_R32F, width, height, GL_NEAREST, depth);
     if (result == NOOK_OK)
@@ -17,24 +26,38 @@ static nook_result create_set(nook_gpu *gpu, uint32_t width, uint32_t height, no
     return result;
 }
 
-nook_result ao_targets_fit(nook_gpu *gpu, ao_targets *targets, uint32_t width, uint32_t height, uint32_t scale)
+static nook_result fit_full(nook_gpu *gpu, ao_targets *targets, uint32_t width, uint32_t height)
 {
-    if (targets->width == width && targets->height == height && targets->scale == scale)
+    if (targets->width == width && targets->height == height)
         return NOOK_OK;
     ao_targets_release(gpu, targets);
-    uint32_t trace_width = nook_groups(width, scale), trace_height = nook_groups(height, scale);
-    nook_result result = create_set(gpu, width, height, &targets->depth, &targets->normal);
-    if (result == NOOK_OK && scale > 1)
-        result = create_set(gpu, trace_width, trace_height, &targets->trace_depth, &targets->trace_normal);
+    nook_result result = create_inputs(gpu, width, height, &targets->depth, &targets->normal);
     if (result == NOOK_OK)
         result = nook_texture_create_2d(gpu, GL_R32F, width, height, GL_NEAREST, &targets->visibility);
+    targets->width = width, targets->height = height;
+    return result;
+}
+
+/** Apart from the full-size ones, so that the host's visibility keeps its name when only the scale changes. */
+static nook_result fit_trace(nook_gpu *gpu, ao_targets *targets, uint32_t scale)
+{
+    if (targets->scale == scale)
+        return NOOK_OK;
+    destroy_trace(gpu, targets);
+    uint32_t width = nook_groups(targets->width, scale), height = nook_groups(targets->height, scale);
+    nook_result result = nook_texture_create_2d(gpu, GL_R32F, width, height, GL_NEAREST, &targets->trace_visibility);
+    if (result == NOOK_OK && scale > 1)
+        result = create_inputs(gpu, width, height, &targets->trace_depth, &targets->trace_normal);
+    targets->scale = scale;
+    return result;
+}
+
+nook_result ao_targets_fit(nook_gpu *gpu, ao_targets *targets, uint32_t width, uint32_t height, uint32_t scale)
+{
+    nook_result result = fit_full(gpu, targets, width, height);
     if (result == NOOK_OK)
-        result =
-            nook_texture_create_2d(gpu, GL_R32F, trace_width, trace_height, GL_NEAREST, &targets->trace_visibility);
-    if (result != NOOK_OK) {
+        result = fit_trace(gpu, targets, scale);
+    if (result != NOOK_OK)
         ao_targets_release(gpu, targets);
-        return result;
-    }
-    targets->width = width, targets->height = height, targets->scale = scale;
-    return NOOK_OK;
+    return result;
 }

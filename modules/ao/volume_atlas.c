@@ -142,26 +142,35 @@ static void join_when_empty(volume_atlas *atlas)
     add_free_box(atlas, &all);
 }
 
+/** Entries stand in the order of their ids: they are added at the end, and removal keeps the order. */
+static uint32_t entry_index(const volume_atlas *atlas, uint32_t id)
+{
+    uint32_t first = 0, end = atlas->entry_count;
+    while (first < end) {
+        uint32_t middle = first + (end - first) / 2;
+        if (atlas->entries[middle].id < id)
+            first = middle + 1;
+        else
+            end = middle;
+    }
+    return first < atlas->entry_count && atlas->entries[first].id == id ? first : UINT32_MAX;
+}
+
 void volume_atlas_remove(volume_atlas *atlas, uint32_t id)
 {
-    for (uint32_t i = 0; i < atlas->entry_count; i++) {
-        if (atlas->entries[i].id != id)
-            continue;
-        add_free_box(atlas, &atlas->entries[i].box);
-        free(atlas->entries[i].pending);
-        atlas->entries[i] = atlas->entries[--atlas->entry_count];
-        join_when_empty(atlas);
+    uint32_t i = entry_index(atlas, id);
+    if (i == UINT32_MAX)
         return;
-    }
+    add_free_box(atlas, &atlas->entries[i].box);
+    free(atlas->entries[i].pending);
+    memmove(atlas->entries + i, atlas->entries + i + 1, (--atlas->entry_count - i) * sizeof *atlas->entries);
+    join_when_empty(atlas);
 }
 
 const atlas_entry *volume_atlas_find(const volume_atlas *atlas, uint32_t id)
 {
-    for (uint32_t i = 0; i < atlas->entry_count; i++) {
-        if (atlas->entries[i].id == id)
-            return &atlas->entries[i];
-    }
-    return NULL;
+    uint32_t i = entry_index(atlas, id);
+    return i == UINT32_MAX ? NULL : &atlas->entries[i];
 }
 
 /** Replaces the texture by a larger one and copies what was there. */
@@ -191,16 +200,12 @@ nook_result volume_atlas_flush(volume_atlas *atlas)
     nook_result result = grow_texture(atlas);
     if (result != NOOK_OK)
         return result;
-    const nook_gl *gl = atlas->gpu->gl;
     for (uint32_t i = 0; i < atlas->entry_count; i++) {
         atlas_entry *entry = &atlas->entries[i];
         if (!entry->pending)
             continue;
-        const uint32_t *at = entry->box.origin, *size = entry->box.size;
-        gl->PixelStorei(GL_UNPACK_ALIGNMENT, 1);
-        gl->TextureSubImage3D(atlas->texture.id, 0, (GLint)at[0], (GLint)at[1], (GLint)at[2], (GLsizei)size[0],
-                              (GLsizei)size[1], (GLsizei)size[2], GL_RED, GL_UNSIGNED_BYTE, entry->pending);
-        gl->PixelStorei(GL_UNPACK_ALIGNMENT, 4);
+        nook_texture_write_box(atlas->gpu, atlas->texture, entry->box.origin, entry->box.size, GL_RED, GL_UNSIGNED_BYTE,
+                               entry->pending, (size_t)box_voxels(entry->box.size));
         free(entry->pending);
         entry->pending = NULL;
     }

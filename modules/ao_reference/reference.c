@@ -31,16 +31,6 @@ typedef struct trace_work {
     float *visibility;
 } trace_work;
 
-static uint32_t mix(uint32_t x)
-{
-    x ^= x >> 16;
-    x *= 0x7feb352du;
-    x ^= x >> 15;
-    x *= 0x846ca68bu;
-    x ^= x >> 16;
-    return x;
-}
-
 /** As nook_octahedral_decode of shaders/nook/octahedral.glsl. In double: the sign of z chooses the frame. */
 static void decode_normal(const uint16_t code[2], vec3 out)
 {
@@ -87,8 +77,8 @@ static double trace_pixel(const trace_work *work, uint32_t x, uint32_t y, double
     decode_normal(code, normal);
     tangent_frame(normal, view_from_local);
     ray_origin(pass, x, y, depth, normal, origin);
-    uint32_t h = mix(x + mix(y + mix(pass->seed)));
-    float shift_x = (float)(h >> 8) / 16777216.0f, shift_y = (float)(mix(h) >> 8) / 16777216.0f;
+    uint32_t h = nook_mix_bits(x + nook_mix_bits(y + nook_mix_bits(pass->seed)));
+    float shift_x = (float)(h >> 8) / 16777216.0f, shift_y = (float)(nook_mix_bits(h) >> 8) / 16777216.0f;
     int any = pass->falloff == NOOK_FALLOFF_HARD;
     for (uint32_t i = 0; i < work->rays; i++) {
         float point[2] = { work->points[2 * i] + shift_x, work->points[2 * i + 1] + shift_y };

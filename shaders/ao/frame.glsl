@@ -11,14 +11,13 @@ layout(std140, binding = 0) uniform Frame {
     int falloff;                 // falloff.glsl
     float falloff_tau;
     uint seed;
-    int occluder_count;
+    int has_normal;              // 0: rebuild normals from depth
     int counting;                // 1: add to the fetch counter
     float filter_radius;         // trace pixels
     float filter_depth;          // pixel footprints
     float filter_normal;         // exponent
     vec2 depth_to_distance;      // distance = x / (device depth + y)
     float depth_background;      // device depth where nothing was drawn
-    int has_normal;              // 0: rebuild normals from depth
     int filter_kind;             // ao.filter: 0 none, 1 disc, 2 tile
     vec4 view_from_world[3];     // rotation only: columns
 } frame;

@@ -307,6 +307,51 @@ static void test_record_refuses_matrices_that_are_no_camera(void **state)
     }
     frame = good_frame(view), frame.view_from_world[12] = NAN;
     EXPECT_REFUSED(nook_ao_record(view->ao, &frame), NOOK_E_ARG, "view_from_world");
+    static const int elements[] = { 0, 1, 3, 9, 10, 15 };
+    for (size_t i = 0; i < NOOK_COUNT(elements); i++) {
+        frame = good_frame(view), frame.view_from_world[elements[i]] += 1e-4;
+        EXPECT_REFUSED(nook_ao_record(view->ao, &frame), NOOK_E_ARG, "not rigid");
+    }
+    frame = good_frame(view), frame.view_from_world[0] = -1.0 + 1e-7; /* mirrored, from a matrix of floats */
+    assert_int_equal(nook_ao_record(view->ao, &frame), NOOK_OK);
+}
+
+static void test_record_tells_an_error_of_gl_and_only_its_own(void **state)
+{
+    ao_view *view = *state;
+    nook_ao_frame frame = good_frame(view);
+    nook_log_capture lines;
+    frame.depth.native = 0x7fffffff; /* no texture */
+    nook_log_capture_begin(&lines);
+    nook_result result = nook_ao_record(view->ao, &frame);
+    nook_log_capture_end();
+    assert_int_equal(result, NOOK_E_DEVICE);
+    assert_true(lines.count >= 1);
+    frame = good_frame(view);
+    nook_log_capture_begin(&lines);
+    view->gpu.gpu->gl->Enable(0xffff); /* the host's error */
+    result = nook_ao_record(view->ao, &frame);
+    nook_log_capture_end();
+    assert_int_equal(result, NOOK_OK);
+    assert_int_equal(view->gpu.gpu->gl->GetError(), GL_NO_ERROR);
+}
+
+static void test_visibility_keeps_its_name_when_only_settings_change(void **state)
+{
+    static const char *const settings[][3] = { { "ao.scale", "quarter", "volume" },
+                                               { "ao.scale", "half", "hsao" },
+                                               { "ao.filter", "none", "ssao" },
+                                               { "ao.scale", "full", "reference" } };
+    ao_view *view = *state;
+    ao_view_record(view, "volume");
+    uint32_t name = nook_ao_visibility(view->ao).native;
+    assert_int_not_equal(name, 0);
+    for (size_t i = 0; i < NOOK_COUNT(settings); i++) {
+        ao_view_param(view, settings[i][0], settings[i][1]);
+        ao_view_record(view, settings[i][2]);
+        assert_int_equal(nook_ao_visibility(view->ao).native, name);
+    }
+    ao_view_param(view, "ao.filter", "tile");
 }
 
 static void test_record_refuses_a_context_without_techniques(void **state)
@@ -381,6 +426,8 @@ int main(void)
         cmocka_unit_test(test_record_leaves_out_what_was_removed_after_submitting),
         cmocka_unit_test(test_record_refuses_textures_of_another_size),
         cmocka_unit_test(test_record_refuses_matrices_that_are_no_camera),
+        cmocka_unit_test(test_record_tells_an_error_of_gl_and_only_its_own),
+        cmocka_unit_test(test_visibility_keeps_its_name_when_only_settings_change),
         cmocka_unit_test(test_record_refuses_a_context_without_techniques),
         cmocka_unit_test(test_context_refuses_damaged_volumes),
         cmocka_unit_test(test_context_refuses_meshes_that_are_none),
