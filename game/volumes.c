@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { BODY_RESOLUTION_MIN = 16, VOXELS_PER_R_MAX = 64, NAME_CAPACITY = 64 };
+enum { NAME_CAPACITY = 64 };
 
 /* ---- Collecting triangles --------------------------------------------------------------------------------------- */
 
@@ -120,8 +120,8 @@ double nook_volumes_default_r_max(const nook_scene *scene)
 uint32_t nook_volumes_body_resolution(double longest, double r_max, uint32_t resolution)
 {
     double high = resolution > 2 ? resolution / 2 : 1;
-    double low = fmin(BODY_RESOLUTION_MIN, high);
-    double wanted = r_max > 0.0 ? ceil(longest * VOXELS_PER_R_MAX / r_max) : low;
+    double low = fmin(NOOK_VOLUMES_BODY_RESOLUTION_MIN, high);
+    double wanted = r_max > 0.0 ? ceil(longest * NOOK_VOLUMES_VOXELS_PER_R_MAX / r_max) : low;
     return (uint32_t)fmin(fmax(wanted, low), high);
 }
 

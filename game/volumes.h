@@ -5,9 +5,10 @@
  * nodes with a mesh are one body, "static", in a space that is the world moved to the scene's centre (so that floats suffice).
  *
  * Materials     Blended ones are left out: a binary volume would make glass as dark as a wall. Masked ones are in, whole.
- * Resolution    follows from r_max: finer than r_max / 64 cannot be told apart in the result. The static volume takes the
- *               `resolution` asked for on its longest side. A body takes as many voxels as make them r_max / 64 in the world
- *               (at its largest instance), but at least 16 and at most half the resolution asked for.
+ * Resolution    follows from r_max: finer than r_max / NOOK_VOLUMES_VOXELS_PER_R_MAX cannot be told apart in the result. The static
+ *               volume takes the `resolution` asked for on its longest side. A body takes as many voxels as make them that
+ *               small in the world (at its largest instance), but at least NOOK_VOLUMES_BODY_RESOLUTION_MIN and at most
+ *               half the resolution asked for.
  */
 #pragma once
 #include "engine/asset/scene.h"
@@ -19,6 +20,8 @@ extern "C" {
 
 #define NOOK_VOLUMES_RESOLUTION_DEFAULT 256u
 #define NOOK_VOLUMES_R_MAX_DEFAULT 0.1 /**< Of the diagonal of the scene's bounds. */
+#define NOOK_VOLUMES_VOXELS_PER_R_MAX 64
+#define NOOK_VOLUMES_BODY_RESOLUTION_MIN 16u
 
 /** A unique volume: one mesh, or all that stands still. */
 typedef struct nook_scene_volume {

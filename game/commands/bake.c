@@ -1,17 +1,32 @@
 #include "engine/core/file.h"
 #include "engine/core/log.h"
 #include "game/commands/commands.h"
+#include "game/techniques.h"
 #include "game/volumes.h"
 #include <stdio.h>
 
 enum { PATH_CAPACITY = 4096 };
 
-static const char details[] =
-    "The resolution of a body follows from r_max: its voxels are r_max / 64, but it has at least 16 along its longest\n"
-    "side and at most half of --resolution. All that stands still shares one volume of --resolution. Instances share "
-    "a\n"
-    "bake. Blended (glass-like) materials are left out. Files are named by content: a second bake finds them.\n"
-    "Format: docs/volume_format.md.\n";
+/* The texts of --help that hold numbers. */
+typedef struct bake_help {
+    char resolution[128], r_max[128], details[640];
+} bake_help;
+
+static void describe(bake_help *out)
+{
+    snprintf(out->resolution, sizeof out->resolution,
+             "voxels along the longest side of what stands still, and the limit for all; default %u",
+             NOOK_VOLUMES_RESOLUTION_DEFAULT);
+    snprintf(out->r_max, sizeof out->r_max, "metres that ambient occlusion reaches; default %g of the scene's diagonal",
+             NOOK_VOLUMES_R_MAX_DEFAULT);
+    snprintf(
+        out->details, sizeof out->details,
+        "The resolution of a body follows from r_max: its voxels are r_max / %d, but it has at least %u along its\n"
+        "longest side and at most half of --resolution. All that stands still shares one volume of --resolution.\n"
+        "Instances share a bake. Blended (glass-like) materials are left out. Files are named by content: a second\n"
+        "bake finds them; when they cannot be written, bake fails. Format: docs/volume_format.md.\n",
+        NOOK_VOLUMES_VOXELS_PER_R_MAX, NOOK_VOLUMES_BODY_RESOLUTION_MIN);
+}
 
 static void tell_progress(void *user, const nook_scene_volume *done, uint32_t index, uint32_t count)
 {
@@ -66,21 +81,24 @@ int nook_command_bake(const nook_app *app, int argc, char **argv)
     const char *cache = nook_path_join(default_cache, sizeof default_cache, app->root, "cache");
     int32_t resolution = NOOK_VOLUMES_RESOLUTION_DEFAULT, threads = 0;
     double r_max = 0.0;
+    const nook_param *shared_r_max = nook_shared_param("r_max");
+    bake_help help;
+    describe(&help);
     const nook_option options[] = {
         { .name = "resolution",
           .kind = NOOK_OPTION_INT,
           .target = &resolution,
           .placeholder = "N",
-          .help = "voxels along the longest side of what stands still, and the limit for all; default 256",
+          .help = help.resolution,
           .lowest = 1,
           .highest = NOOK_VOXELIZE_RESOLUTION_MAX },
         { .name = "r-max",
           .kind = NOOK_OPTION_NUMBER,
           .target = &r_max,
           .placeholder = "M",
-          .help = "metres that ambient occlusion reaches; default 0.1 of the scene's diagonal",
-          .lowest = 1e-6,
-          .highest = 1e9 },
+          .help = help.r_max,
+          .lowest = shared_r_max->lowest,
+          .highest = shared_r_max->highest },
         { .name = "cache",
           .kind = NOOK_OPTION_TEXT,
           .target = &cache,
@@ -101,7 +119,7 @@ int nook_command_bake(const nook_app *app, int argc, char **argv)
                                .positional_max = 1,
                                .options = options,
                                .option_count = NOOK_COUNT(options),
-                               .details = details };
+                               .details = help.details };
     nook_arguments arguments;
     int exit_code;
     if (!nook_arguments_read(&usage, argc, argv, &arguments, &exit_code))

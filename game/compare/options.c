@@ -1,6 +1,8 @@
 #include "game/compare/options.h"
 #include "engine/core/file.h"
 #include "engine/core/result.h"
+#include "game/techniques.h"
+#include "modules/bake/voxelize.h"
 #include <string.h>
 
 /* The names that ao.scale knows, and the other ways to say them. */
@@ -31,6 +33,7 @@ bool nook_compare_options_read(const nook_app *app, int argc, char **argv, nook_
     *out = (nook_compare_options){ .size = { 960, 540 }, .out = "out", .backend = NOOK_BACKEND_AUTO };
     out->scene = nook_path_join(out->default_scene, sizeof out->default_scene, app->root, "content/hall/hall.glb");
     out->cache = nook_path_join(out->default_cache, sizeof out->default_cache, app->root, "cache");
+    const nook_param *r_max = nook_shared_param("r_max");
     const nook_option options[] = {
         { .name = "camera",
           .kind = NOOK_OPTION_TEXT,
@@ -48,8 +51,8 @@ bool nook_compare_options_read(const nook_app *app, int argc, char **argv, nook_
           .kind = NOOK_OPTION_NUMBER,
           .target = &out->r_max,
           .placeholder = "M",
-          .lowest = 1e-9,
-          .highest = 1e9,
+          .lowest = r_max->lowest,
+          .highest = r_max->highest,
           .help = "reach of the occlusion in metres; default: a tenth of the scene's diagonal" },
         { .name = "falloff",
           .kind = NOOK_OPTION_TEXT,
@@ -108,7 +111,7 @@ bool nook_compare_options_read(const nook_app *app, int argc, char **argv, nook_
           .target = &out->resolution,
           .placeholder = "N",
           .lowest = 1,
-          .highest = 510,
+          .highest = NOOK_VOXELIZE_RESOLUTION_MAX,
           .help = "voxels along the longest side of a body" },
         { .name = "cache",
           .kind = NOOK_OPTION_TEXT,
