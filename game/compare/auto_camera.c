@@ -5,6 +5,8 @@
 
 enum { DIRECTIONS = 16, PROBES = 9, GRID = 7 };
 static const double backs_tolerated = 0.1;
+/* In pictures longer than that the scene would be a dot: they show a strip of a picture that is not. */
+static const double aspect_max = 4.0;
 static const double pi = 3.14159265358979323846;
 
 /* Whether a ray meets a box nearer than `limit`. Axes that it does not move along give infinities of the right signs. */
@@ -118,7 +120,7 @@ static nook_camera side_view(const nook_scene *scene, int side, const nook_camer
     return camera;
 }
 
-nook_camera nook_camera_outside(const nook_scene *scene, double aspect)
+static nook_camera frame_outside(const nook_scene *scene, double aspect)
 {
     nook_camera best = nook_camera_frame(scene->bounds_min, scene->bounds_max, aspect);
     double least = nook_view_back_fraction(scene, &best, aspect);
@@ -134,6 +136,16 @@ nook_camera nook_camera_outside(const nook_scene *scene, double aspect)
         }
     }
     return best;
+}
+
+nook_camera nook_camera_outside(const nook_scene *scene, double aspect)
+{
+    double framed = fmin(fmax(aspect, 1.0 / aspect_max), aspect_max);
+    nook_camera camera = frame_outside(scene, framed);
+    if (aspect >
+        framed) /* as wide an angle as it was framed for; of a high picture the sides fall away by themselves */
+        camera.fov_y_radians = 2.0 * atan(tan(0.5 * camera.fov_y_radians) * framed / aspect);
+    return camera;
 }
 
 /* How much of what is around `centre` something nearer hides from a view. */

@@ -14,7 +14,10 @@ nook_ray_hit nook_scene_cast(const nook_scene *scene, const double origin[3], co
 /** Of the picture's surfaces, the part that shows its back: what a room shows to those outside. */
 double nook_view_back_fraction(const nook_scene *scene, const nook_camera *view, double aspect);
 
-/** The whole scene from outside: from three quarters, or from where least of it turns its back. */
+/**
+ * The whole scene from outside: from three quarters, or from where least of it turns its back. In pictures with sides beyond
+ * 4 : 1 it takes a good part of the long side, and the short one shows a strip of it.
+ */
 nook_camera nook_camera_outside(const nook_scene *scene, double aspect);
 
 /**

@@ -129,6 +129,37 @@ static void test_a_solid_thing_keeps_its_three_quarter_view(void **state)
     assert_memory_equal(&outside.view_from_world, &three_quarters.view_from_world, sizeof outside.view_from_world);
 }
 
+/* How many pixels of a picture show the scene. */
+static int count_seen(const nook_scene *scene, const nook_camera *view, int width, int height)
+{
+    nook_matrix world_from_view;
+    const double origin[3] = { 0, 0, 0 };
+    double eye[3], tangent = tan(0.5 * view->fov_y_radians);
+    int seen = 0;
+    nook_matrix_inverse_affine(&view->view_from_world, &world_from_view);
+    nook_matrix_apply_point(&world_from_view, origin, eye);
+    for (int i = 0; i < width * height; i++) {
+        double u = 2.0 * (i % width + 0.5) / width - 1.0, v = 2.0 * (i / width + 0.5) / height - 1.0;
+        double direction[3] = { u * tangent * width / height, v * tangent, -1.0 };
+        nook_matrix_apply_vector(&world_from_view, direction, direction);
+        seen += isfinite(nook_scene_cast(scene, eye, direction).distance);
+    }
+    return seen;
+}
+
+static void test_extreme_pictures_show_the_scene(void **state)
+{
+    (void)state;
+    static const int sizes[][2] = { { 400, 1 }, { 1, 400 }, { 16384, 2 }, { 2, 1000 }, { 6, 1 } };
+    box_scene box;
+    make_box(&box, 1.0, 1.0, 1.0, false);
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        int width = sizes[i][0], height = sizes[i][1];
+        nook_camera outside = nook_camera_outside(&box.scene, width / (double)height);
+        assert_in_range(count_seen(&box.scene, &outside, width, height), width * height / 10 + 1, width * height);
+    }
+}
+
 static void test_a_scene_without_triangles_is_no_room(void **state)
 {
     (void)state;
@@ -145,6 +176,7 @@ int main(void)
         cmocka_unit_test(test_a_thing_is_seen_from_outside),
         cmocka_unit_test(test_a_room_with_one_side_open_is_seen_through_it),
         cmocka_unit_test(test_a_solid_thing_keeps_its_three_quarter_view),
+        cmocka_unit_test(test_extreme_pictures_show_the_scene),
         cmocka_unit_test(test_a_scene_without_triangles_is_no_room),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
