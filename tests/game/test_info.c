@@ -116,9 +116,9 @@ static void test_an_empty_scene_has_no_box(void **state)
 static void test_a_baked_volume_is_described(void **state)
 {
     (void)state;
-    uint8_t voxels[2 * 3 * 4] = { [5] = 255 };
+    uint8_t voxels[3 * 3 * 4] = { [13] = 255 }; /* the middle of its second slice */
     nook_volume volume = {
-        .info = { .width = 2, .height = 3, .depth = 4, .voxel_size = 0.5, .origin = { 1, 2, 3 }, .occupied = 1 },
+        .info = { .width = 3, .height = 3, .depth = 4, .voxel_size = 0.5, .origin = { 1, 2, 3 }, .occupied = 1 },
         .voxels = voxels
     };
     void *bytes = NULL;
@@ -128,7 +128,7 @@ static void test_a_baked_volume_is_described(void **state)
     run r = run_info("--json", test_bytes_write("made.nkv", bytes, size));
     assert_int_equal(r.exit_code, NOOK_EXIT_OK);
     assert_int_equal(nook_json_tree_read("output", r.output, strlen(r.output), 16, &tree), NOOK_OK);
-    assert_int_equal(integer_of(&tree, "bytes"), 24);
+    assert_int_equal(integer_of(&tree, "bytes"), 36);
     assert_int_equal(integer_of(&tree, "file_bytes"), size);
     assert_int_equal(integer_of(&tree, "occupied"), 1);
     nook_json_tree_free(&tree);
