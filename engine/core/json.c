@@ -1,7 +1,7 @@
 #include "engine/core/json.h"
-#include "engine/core/file.h"
 #include "engine/core/log.h"
 #include <assert.h>
+#include <errno.h>
 #include <float.h>
 #include <inttypes.h>
 #include <math.h>
@@ -289,17 +289,6 @@ void nook_json_numbers(nook_json *json, const double *values, size_t count)
     end_value(json);
 }
 
-void nook_json_floats(nook_json *json, const float *values, size_t count)
-{
-    begin_value(json);
-    for (size_t i = 0; i < count; i++) {
-        put_text(json, i == 0 ? "[" : ", ");
-        put_number(json, (double)values[i], true);
-    }
-    put_text(json, count == 0 ? "[]" : "]");
-    end_value(json);
-}
-
 void nook_json_member_string(nook_json *json, const char *key, const char *text)
 {
     nook_json_key(json, key);
@@ -339,12 +328,13 @@ nook_result nook_json_finish(nook_json *json, const char **out_text, size_t *out
     return NOOK_OK;
 }
 
-nook_result nook_json_write_file(nook_json *json, const char *path)
+nook_result nook_json_print(nook_json *json, FILE *stream)
 {
     const char *text = NULL;
-    size_t size = 0;
-    nook_result result = nook_json_finish(json, &text, &size);
-    return result == NOOK_OK ? nook_file_write(path, text, size) : result;
+    nook_result result = nook_json_finish(json, &text, NULL);
+    if (result == NOOK_OK && fputs(text, stream) == EOF)
+        return nook_fail(NOOK_E_IO, "JSON: cannot be printed: %s", strerror(errno));
+    return result;
 }
 
 void nook_json_free(nook_json *json)

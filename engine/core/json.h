@@ -3,6 +3,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -45,7 +46,6 @@ void nook_json_bool(nook_json *json, bool value);
 void nook_json_null(nook_json *json);
 /** An array of numbers on one line: vectors and matrices. */
 void nook_json_numbers(nook_json *json, const double *values, size_t count);
-void nook_json_floats(nook_json *json, const float *values, size_t count);
 
 /** A key and its value in one call. */
 void nook_json_member_string(nook_json *json, const char *key, const char *text);
@@ -61,8 +61,8 @@ void nook_json_member_bool(nook_json *json, const char *key, bool value);
  */
 nook_result nook_json_finish(nook_json *json, const char **out_text, size_t *out_size);
 
-/** Finishes and writes the text with nook_file_write. @return NOOK_E_MEMORY, NOOK_E_IO */
-nook_result nook_json_write_file(nook_json *json, const char *path);
+/** Finishes and prints the text. @return NOOK_E_MEMORY, NOOK_E_IO */
+nook_result nook_json_print(nook_json *json, FILE *stream);
 
 void nook_json_free(nook_json *json); /**< Leaves it zero, ready for another text. */
 

@@ -37,10 +37,7 @@ static nook_result print_json(const bench_settings *settings, const nook_bench_t
     }
     nook_json_end_object(&json);
     nook_json_end_object(&json);
-    const char *text = NULL;
-    nook_result result = nook_json_finish(&json, &text, NULL);
-    if (result == NOOK_OK)
-        fputs(text, stdout);
+    nook_result result = nook_json_print(&json, stdout);
     nook_json_free(&json);
     return result;
 }

@@ -33,10 +33,7 @@ static void print_numbers(const char *name, const double *values, size_t count)
 
 static int print_json(nook_json *json)
 {
-    const char *text;
-    nook_result result = nook_json_finish(json, &text, NULL);
-    if (result == NOOK_OK)
-        fputs(text, stdout);
+    nook_result result = nook_json_print(json, stdout);
     nook_json_free(json);
     return result == NOOK_OK ? NOOK_EXIT_OK : NOOK_EXIT_FAILED;
 }

@@ -40,10 +40,7 @@ static int print_json(const char *path, const nook_scalar_volume *volume)
     nook_json_member_number(&json, "maximum", volume->maximum);
     nook_json_member_integer(&json, "not_finite", (int64_t)volume->not_finite);
     nook_json_end_object(&json);
-    const char *text;
-    nook_result result = nook_json_finish(&json, &text, NULL);
-    if (result == NOOK_OK)
-        fputs(text, stdout);
+    nook_result result = nook_json_print(&json, stdout);
     nook_json_free(&json);
     return result == NOOK_OK ? NOOK_EXIT_OK : NOOK_EXIT_FAILED;
 }

@@ -29,22 +29,6 @@ void nook_picture_free(nook_picture *picture)
     *picture = (nook_picture){ 0 };
 }
 
-nook_result nook_picture_from_rgba(const uint8_t *rgba, uint32_t width, uint32_t height, nook_picture *out_picture)
-{
-    nook_picture picture;
-    nook_result result = nook_picture_create(width, height, &picture);
-    if (result != NOOK_OK)
-        return result;
-    for (uint32_t y = 0; y < height; y++) {
-        const uint8_t *from = rgba + (size_t)(height - 1 - y) * width * 4;
-        nook_rgb *to = picture.pixels + (size_t)y * width;
-        for (uint32_t x = 0; x < width; x++)
-            to[x] = (nook_rgb){ from[x * 4], from[x * 4 + 1], from[x * 4 + 2] };
-    }
-    *out_picture = picture;
-    return NOOK_OK;
-}
-
 static nook_rgb grey_colour(float value)
 {
     if (isnan(value))

@@ -25,8 +25,6 @@ typedef struct nook_picture {
 nook_result nook_picture_create(uint32_t width, uint32_t height, nook_picture *out_picture);
 void nook_picture_free(nook_picture *picture); /**< NULL and zeroed pictures are allowed. */
 
-/** From GL's order: `rgba` has 4 bytes a pixel, bottom row first. Alpha is dropped. @return like nook_picture_create */
-nook_result nook_picture_from_rgba(const uint8_t *rgba, uint32_t width, uint32_t height, nook_picture *out_picture);
 /**
  * From floats in [0, 1], bottom row first, as they are: grey = round(255 value), without gamma, so that a pixel can be read
  * back. Values outside are clamped; NaN becomes pure magenta.
