@@ -82,7 +82,7 @@ int nook_command_bake(const nook_app *app, int argc, char **argv)
     int32_t resolution = NOOK_VOLUMES_RESOLUTION_DEFAULT, threads = 0;
     double r_max = 0.0;
     const nook_param *shared_r_max = nook_shared_param("r_max");
-    bake_help help;
+    bake_help help = { .details = "" };
     describe(&help);
     const nook_option options[] = {
         { .name = "resolution",

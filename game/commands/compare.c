@@ -17,6 +17,9 @@ static nook_result set_params(nook_stage *stage, const nook_compare_options *opt
 {
     nook_ao *ao = stage->ao;
     double r_max = options->r_max > 0.0 ? options->r_max : nook_volumes_default_r_max(stage->scene);
+    if (r_max == 0.0)
+        return nook_fail(NOOK_E_FORMAT, "%s: what it draws has no size, so there is nothing to compare",
+                         stage->scene->path);
     nook_result result = nook_ao_set_param(ao, "ao.r_max", r_max);
     if (result == NOOK_OK && options->falloff)
         result = nook_ao_parse_param(ao, "ao.falloff", options->falloff);

@@ -138,7 +138,9 @@ bool nook_compare_options_read(const nook_app *app, int argc, char **argv, nook_
         .option_count = NOOK_COUNT(options),
         .details =
             "Files: compare.png (everything on one sheet), <technique>.png and .pfm (visibility, 1 = open),\n"
-            "lit_<technique>.png, error_<technique>.png (blue: too bright, red: too dark), compare.json.\n"
+            "lit_<technique>.png, error_<technique>.png (blue: too bright, red: too dark), compare.json. They appear "
+            "all at\n"
+            "once, in the place of those of an older comparison.\n"
             "Instability (unsteady): RMS change of visibility at the same world points, seen from a second camera "
             "turned 20\n"
             "degrees around what stands in the picture's middle (10 or 5 where that shows too little of the same).\n"
