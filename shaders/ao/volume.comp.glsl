@@ -126,15 +126,17 @@ float occlusion_union(bool inside, vec3 position, vec3 normal, ivec2 pixel, inou
                 Receiver r = receive(o, position, normal);
                 if (!r.can_see)
                     continue;
-                for (int j = 0; j < batch; j++) {
+                for (int j = 0; j < BATCH; j++) { // a constant bound, so that nearest[] can live in registers
+                    if (j >= batch)
+                        break;
                     vec3 d = direction(first + j, block, tangent, bitangent, normal);
                     float jitter = fract(shift + float(first + j) * 0.61803399);
                     nearest[j] = min(nearest[j], march(o, r, d, dot(d, normal), nearest[j], jitter, fetches));
                 }
             }
         }
-        for (int j = 0; j < batch; j++)
-            sum += falloff(nearest[j]);
+        for (int j = 0; j < BATCH; j++)
+            sum += j < batch ? falloff(nearest[j]) : 0.0;
     }
     return sum / float(params.rays);
 }
