@@ -47,8 +47,8 @@ nook_result nook_stage_expose(nook_stage *stage, const nook_camera *camera)
     }
     nook_texture_read(stage->gpu, nook_renderer_gbuffer(stage->renderer).depth, GL_DEPTH_COMPONENT, GL_FLOAT, depth,
                       pixels * sizeof *depth);
-    for (int i = 0; i < STEPS; i++) {
-        nook_stage_finish(stage, false, NOOK_VIEW_LIT);
+    for (int i = 0; i < STEPS && result == NOOK_OK; i++) {
+        result = nook_stage_finish(stage, false, NOOK_VIEW_LIT);
         nook_renderer_read(stage->renderer, rgb);
         double mean = fmax(mean_luminance(stage, rgb, depth), 1e-3);
         float exposure = stage->lights.exposure * (float)(grey / mean);
@@ -56,5 +56,5 @@ nook_result nook_stage_expose(nook_stage *stage, const nook_camera *camera)
     }
     free(rgb);
     free(depth);
-    return NOOK_OK;
+    return result;
 }

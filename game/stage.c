@@ -177,7 +177,7 @@ nook_result nook_stage_occlude(nook_stage *stage)
     return nook_ao_record(stage->ao, &frame);
 }
 
-void nook_stage_finish(nook_stage *stage, bool occluded, nook_view view)
+nook_result nook_stage_finish(nook_stage *stage, bool occluded, nook_view view)
 {
     nook_texture visibility = { 0 };
     if (occluded) {
@@ -185,6 +185,7 @@ void nook_stage_finish(nook_stage *stage, bool occluded, nook_view view)
         visibility = (nook_texture){ texture.native, GL_TEXTURE_2D, texture.width, texture.height, 1, GL_R32F };
     }
     nook_frame_finish(stage->renderer, &stage->frame, visibility, view);
+    return nook_gpu_check(stage->gpu, "a frame") ? NOOK_E_DEVICE : NOOK_OK; /* the check says what it was */
 }
 
 void nook_stage_show(nook_stage *stage, const char *doing)

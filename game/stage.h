@@ -59,5 +59,5 @@ nook_result nook_stage_occlude(nook_stage *stage);
  * @param doing  for the title
  */
 void nook_stage_show(nook_stage *stage, const char *doing);
-/** Lights the picture. @param occluded  false: as if everything were open */
-void nook_stage_finish(nook_stage *stage, bool occluded, nook_view view);
+/** Lights the picture. @param occluded  false: as if everything were open @return NOOK_E_DEVICE GL raised an error */
+nook_result nook_stage_finish(nook_stage *stage, bool occluded, nook_view view);

@@ -102,9 +102,9 @@ static nook_result read_lit(nook_stage *stage, nook_picture *out_picture)
     nook_result result = nook_picture_create(stage->width, stage->height, out_picture);
     if (result != NOOK_OK)
         return result;
-    nook_stage_finish(stage, true, NOOK_VIEW_LIT);
+    result = nook_stage_finish(stage, true, NOOK_VIEW_LIT);
     nook_renderer_read(stage->renderer, &out_picture->pixels->r);
-    return NOOK_OK;
+    return result;
 }
 
 static nook_result read_geometry(nook_stage *stage, uint8_t **out_geometry)
@@ -172,10 +172,10 @@ nook_result nook_compare_run(nook_stage *stage, const nook_camera *camera, const
     nook_result result = nook_stage_begin(stage, camera);
     if (result == NOOK_OK)
         result = read_geometry(stage, &out_comparison->geometry);
-    if (result == NOOK_OK) {
-        nook_stage_finish(stage, false, NOOK_VIEW_LIT);
+    if (result == NOOK_OK)
+        result = nook_stage_finish(stage, false, NOOK_VIEW_LIT);
+    if (result == NOOK_OK)
         nook_stage_show(stage, "first the truth");
-    }
     for (uint32_t i = 0; i < choice->count && result == NOOK_OK; i++) {
         out_comparison->rows[i].technique = choice->techniques[i];
         out_comparison->row_count = i + 1;

@@ -172,7 +172,9 @@ static nook_result draw(viewer *v, const nook_input *input)
     nook_result result = v->changed ? redraw(v) : NOOK_OK;
     if (result != NOOK_OK)
         return result;
-    nook_stage_finish(v->stage, v->occluded, v->view);
+    result = nook_stage_finish(v->stage, v->occluded, v->view);
+    if (result != NOOK_OK)
+        return result;
     nook_renderer_present(v->stage->renderer, input->width, input->height);
     nook_context_present(v->stage->context);
     show_title(v);
