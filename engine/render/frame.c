@@ -59,7 +59,7 @@ nook_result nook_frame_begin(nook_renderer *renderer, const nook_frame *frame)
 
 void nook_frame_finish(nook_renderer *renderer, const nook_frame *frame, nook_texture visibility, nook_view view)
 {
-    if (view == NOOK_VIEW_LIT) {
+    if (view == NOOK_VIEW_LIT || view == NOOK_VIEW_LIGHT) {
         nook_pass_lighting(renderer, visibility);
         nook_pass_blended(renderer, frame);
     }

@@ -5,8 +5,8 @@
 #include <string.h>
 
 static const char *const view_names[NOOK_VIEW_COUNT] = {
-    "lit",      "base_colour", "normal",   "geometric_normal", "depth",
-    "metallic", "roughness",   "emissive", "visibility",       "shadow",
+    "lit",      "base_colour", "normal", "geometric_normal", "depth", "metallic",   "roughness",
+    "emissive", "visibility",  "shadow", "occlusion_map",    "light", "shadow_map",
 };
 
 const char *nook_view_name(nook_view view)

@@ -82,8 +82,11 @@ typedef enum nook_view {
     NOOK_VIEW_METALLIC,
     NOOK_VIEW_ROUGHNESS,
     NOOK_VIEW_EMISSIVE,
-    NOOK_VIEW_VISIBILITY, /**< What ambient light is multiplied by; white where nothing is drawn. */
-    NOOK_VIEW_SHADOW,     /**< Fraction of the sun that arrives. */
+    NOOK_VIEW_VISIBILITY,    /**< What ambient light is multiplied by; white where nothing is drawn. */
+    NOOK_VIEW_SHADOW,        /**< Fraction of the sun that arrives. */
+    NOOK_VIEW_OCCLUSION_MAP, /**< Of the material: what its own texture leaves of ambient light. */
+    NOOK_VIEW_LIGHT, /**< The picture before tone mapping, logarithmic: 0 is 1/1024, each doubling adds 16 of 255. */
+    NOOK_VIEW_SHADOW_MAP, /**< The sun's whole map, square in the middle: white near the sun, black nothing. */
     NOOK_VIEW_COUNT
 } nook_view;
 

@@ -102,7 +102,8 @@ static nook_result compare(nook_stage *stage, const nook_compare_options *option
     if (result != NOOK_OK)
         return result;
     memcpy(comparison.camera, label, sizeof label);
-    if (!options->no_instability)
+    result = nook_view_pictures_draw(stage, &options->views, &comparison.views);
+    if (result == NOOK_OK && !options->no_instability)
         result = nook_compare_steadiness(stage, &comparison);
     if (result == NOOK_OK)
         result = report(stage, options, &comparison);

@@ -3,6 +3,7 @@
 #include "engine/core/result.h"
 #include "game/techniques.h"
 #include "modules/bake/voxelize.h"
+#include <stdio.h>
 #include <string.h>
 
 /* The names that ao.scale knows, and the other ways to say them. */
@@ -27,6 +28,11 @@ static bool read_backend(void *target, const char *text)
     return nook_backend_parse(text, target);
 }
 
+static bool read_views(void *target, const char *text)
+{
+    return nook_view_list_read(text, target);
+}
+
 bool nook_compare_options_read(const nook_app *app, int argc, char **argv, nook_compare_options *out,
                                int *out_exit_code)
 {
@@ -34,6 +40,12 @@ bool nook_compare_options_read(const nook_app *app, int argc, char **argv, nook_
     out->scene = nook_path_join(out->default_scene, sizeof out->default_scene, app->root, "content/hall/hall.glb");
     out->cache = nook_path_join(out->default_cache, sizeof out->default_cache, app->root, "cache");
     const nook_param *r_max = nook_shared_param("r_max");
+    char view_help[512], view_names[512], view_expects[600];
+    snprintf(view_help, sizeof view_help,
+             "also writes view_<name>.png of the frame, names with commas between:\n%29s%s", "",
+             nook_view_list_names(6, view_names, sizeof view_names));
+    snprintf(view_expects, sizeof view_expects, "names with commas between, of %s",
+             nook_view_list_names(0, view_names, sizeof view_names));
     const nook_option options[] = {
         { .name = "camera",
           .kind = NOOK_OPTION_TEXT,
@@ -94,6 +106,13 @@ bool nook_compare_options_read(const nook_app *app, int argc, char **argv, nook_
           .kind = NOOK_OPTION_FLAG,
           .target = &out->no_instability,
           .help = "no second view, which costs every technique another frame" },
+        { .name = "view",
+          .kind = NOOK_OPTION_CUSTOM,
+          .target = &out->views,
+          .placeholder = "NAME[,NAME...]",
+          .read = read_views,
+          .expects = view_expects,
+          .help = view_help },
         { .name = "out",
           .kind = NOOK_OPTION_TEXT,
           .target = &out->out,
@@ -138,9 +157,8 @@ bool nook_compare_options_read(const nook_app *app, int argc, char **argv, nook_
         .option_count = NOOK_COUNT(options),
         .details =
             "Files: compare.png (everything on one sheet), <technique>.png and .pfm (visibility, 1 = open),\n"
-            "lit_<technique>.png, error_<technique>.png (blue: too bright, red: too dark), compare.json. They appear "
-            "all at\n"
-            "once, in the place of those of an older comparison.\n"
+            "lit_<technique>.png, error_<technique>.png (blue: too bright, red: too dark), view_<name>.png (--view),\n"
+            "compare.json. They appear all at once, in the place of those of an older comparison.\n"
             "Instability (unsteady): RMS change of visibility at the same world points, seen from a second camera "
             "turned 20\n"
             "degrees around what stands in the picture's middle (10 or 5 where that shows too little of the same).\n"

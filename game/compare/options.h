@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/platform/context.h"
 #include "game/command.h"
+#include "game/compare/views.h"
 
 enum { NOOK_COMPARE_PATH_MAX = 4096 };
 
@@ -16,6 +17,7 @@ typedef struct nook_compare_options {
     nook_option_list params; /**< "technique.name=value" */
     int32_t reference_rays;  /**< 0: the reference's own default. */
     int32_t frames;          /**< Timed ones of each technique; 0: as many as a few seconds allow. */
+    nook_view_list views;    /**< To write beside the comparison. */
     const char *out;
     nook_backend backend;
     int32_t resolution; /**< Voxels along a body's longest side; 0: the baker's own default. */

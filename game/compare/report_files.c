@@ -29,6 +29,16 @@ static nook_result write_row(const nook_output *output, const nook_compare_row *
     return result;
 }
 
+static nook_result write_views(const nook_output *output, const nook_view_pictures *views)
+{
+    char path[NOOK_OUTPUT_PATH_MAX];
+    nook_result result = NOOK_OK;
+    for (uint32_t i = 0; i < views->list.count && result == NOOK_OK; i++)
+        result = nook_picture_write_png(&views->items[i],
+                                        make_path(output, "view_", nook_view_name(views->list.items[i]), ".png", path));
+    return result;
+}
+
 static nook_result draw_row(const nook_comparison *comparison, uint32_t index, nook_picture *error, nook_picture *grey)
 {
     const nook_grey *visibility = &comparison->rows[index].visibility;
@@ -78,6 +88,8 @@ static nook_result write_all(const nook_report *report, const nook_output *outpu
     if (result == NOOK_OK && !nook_output_interrupted())
         result = write_sheet(report, output, errors, greys);
     if (result == NOOK_OK && !nook_output_interrupted())
+        result = write_views(output, &comparison->views);
+    if (result == NOOK_OK && !nook_output_interrupted())
         result = write_json(report, output);
     for (uint32_t i = 0; i < comparison->row_count; i++) {
         nook_picture_free(&errors[i]);
@@ -92,11 +104,24 @@ static bool ends_with(const char *text, const char *end)
     return length >= end_length && strcmp(text + length - end_length, end) == 0;
 }
 
+static bool is_view(const char *name)
+{
+    char file[256];
+    for (int i = 0; i < NOOK_VIEW_COUNT; i++) {
+        snprintf(file, sizeof file, "%s.png", nook_view_name((nook_view)i));
+        if (strcmp(name, file) == 0)
+            return true;
+    }
+    return false;
+}
+
 /* Whether that is the name of a picture that a comparison writes, whichever techniques it was of. */
 static bool is_picture(void *user, const char *name)
 {
     static const char *const prefixes[] = { "lit_", "error_" };
     const nook_ao_technique *technique;
+    if (strncmp(name, "view_", 5) == 0)
+        return is_view(name + 5);
     for (size_t i = 0; i < NOOK_COUNT(prefixes); i++) {
         if (strncmp(name, prefixes[i], strlen(prefixes[i])) == 0) {
             name += strlen(prefixes[i]);

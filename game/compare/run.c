@@ -192,6 +192,7 @@ void nook_comparison_free(nook_comparison *comparison)
         nook_grey_free(&comparison->rows[i].visibility);
         nook_picture_free(&comparison->rows[i].lit);
     }
+    nook_view_pictures_free(&comparison->views);
     free(comparison->geometry);
     *comparison = (nook_comparison){ 0 };
 }

@@ -2,6 +2,7 @@
 #include "engine/core/result.h"
 #include "game/compare/choice.h"
 #include "game/compare/second_view.h"
+#include "game/compare/views.h"
 #include "game/stage.h"
 #include "modules/ao/technique.h"
 #include "modules/measure/errors.h"
@@ -28,8 +29,9 @@ typedef struct nook_comparison {
     uint32_t row_count;
     uint8_t *geometry; /**< One byte a pixel, bottom row first: not 0 where something was drawn. Owned. */
     uint32_t width, height;
-    char camera[256];        /**< What to call the view. */
-    nook_second_view second; /**< Not measured until nook_compare_steadiness. */
+    char camera[256];         /**< What to call the view. */
+    nook_second_view second;  /**< Not measured until nook_compare_steadiness. */
+    nook_view_pictures views; /**< Of the frame with the last technique, drawn before the second view. */
 } nook_comparison;
 
 /**

@@ -10,7 +10,8 @@ layout(location = 0) out vec4 image;   // RGBA8
 
 // In nook_view's order.
 const int VIEW_LIT = 0, VIEW_BASE_COLOUR = 1, VIEW_NORMAL = 2, VIEW_GEOMETRIC_NORMAL = 3, VIEW_DEPTH = 4,
-          VIEW_METALLIC = 5, VIEW_ROUGHNESS = 6, VIEW_EMISSIVE = 7, VIEW_VISIBILITY = 8, VIEW_SHADOW = 9;
+          VIEW_METALLIC = 5, VIEW_ROUGHNESS = 6, VIEW_EMISSIVE = 7, VIEW_VISIBILITY = 8, VIEW_SHADOW = 9,
+          VIEW_OCCLUSION_MAP = 10, VIEW_LIGHT = 11, VIEW_SHADOW_MAP = 12;
 
 // Narkowicz, "ACES Filmic Tone Mapping Curve", 2015: rises everywhere, 0 stays 0.
 vec3 tone_map(vec3 c)
@@ -21,6 +22,24 @@ vec3 tone_map(vec3 c)
 vec3 srgb_encode(vec3 c)
 {
     return mix(c * 12.92, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, greaterThan(c, vec3(0.0031308)));
+}
+
+// 16 doublings from 1/1024 to 64: what tone mapping leaves of bright and dark cannot be told apart in the picture.
+vec3 light_view(vec3 radiance)
+{
+    return clamp((log2(max(radiance, vec3(1e-9))) + 10.0) / 16.0, 0.0, 1.0);
+}
+
+// The whole map in a square in the middle of the picture. Grey outside.
+vec3 shadow_map_view(vec2 pixel)
+{
+    vec2 place = (pixel - 0.5 * frame.size) / min(frame.size.x, frame.size.y) + 0.5;
+    if (any(lessThan(place, vec2(0.0))) || any(greaterThanEqual(place, vec2(1.0))))
+        return vec3(0.25);
+    if (lights.sun_direction.w == 0.0)
+        return vec3(0.0);
+    ivec2 size = textureSize(shadow_map, 0);
+    return vec3(1.0 - texelFetch(shadow_map, min(ivec2(place * vec2(size)), size - 1), 0).r);
 }
 
 vec3 buffer_view(ivec2 pixel, float depth)
@@ -46,6 +65,8 @@ vec3 buffer_view(ivec2 pixel, float depth)
         return vec3(read_visibility(pixel));
     case VIEW_SHADOW:
         return vec3(sun_arrives(s));
+    case VIEW_OCCLUSION_MAP:
+        return vec3(texelFetch(material_texture, pixel, 0).b);
     }
     return vec3(0.0);
 }
@@ -57,6 +78,10 @@ void main()
     vec3 colour;
     if (view == VIEW_LIT)
         colour = srgb_encode(tone_map(texelFetch(light_texture, pixel, 0).rgb));
+    else if (view == VIEW_LIGHT)
+        colour = light_view(texelFetch(light_texture, pixel, 0).rgb);
+    else if (view == VIEW_SHADOW_MAP)
+        colour = shadow_map_view(gl_FragCoord.xy);
     else if (depth == 0.0)
         colour = vec3(view == VIEW_VISIBILITY ? 1.0 : 0.0);
     else

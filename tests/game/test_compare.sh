@@ -34,6 +34,18 @@ test_compare_writes_every_file_of_the_report() {
     [ "$(find "$tmp/all" -type f | wc -l)" -eq $((4 * 3 + 3 + 2)) ] # nothing temporary is left
 }
 
+test_views_are_written_when_asked_for_and_go_with_the_next_run() {
+    local name
+    compare_crate --out "$tmp/views" --techniques ssao --view depth,shadow_map,light >"$tmp/table"
+    for name in depth shadow_map light; do
+        [ "$(png_size "$tmp/views/view_$name.png")" = '96 x 64' ]
+    done
+    ! cmp -s "$tmp/views/view_light.png" "$tmp/views/lit_ssao.png"
+    compare_crate --out "$tmp/views" --techniques ssao --view lit >"$tmp/table"
+    cmp "$tmp/views/view_lit.png" "$tmp/views/lit_ssao.png"
+    [ "$(find "$tmp/views" -name 'view_*' | wc -l)" -eq 1 ]
+}
+
 test_compare_json_holds_what_was_measured() {
     compare_crate --out "$tmp/json" --techniques volume --camera corner --r-max 0.75 --falloff linear --json >"$tmp/printed"
     cmp "$tmp/printed" "$tmp/json/compare.json"
@@ -120,6 +132,7 @@ test_bad_input_is_one_line_and_leaves_nothing_behind() {
     refused 1 'broken.glb' "$tmp/broken.glb"
     refused 2 "choose from volume, ssao, hsao, reference" "$crate" --techniques volume,magic
     refused 1 "'corner'" "$crate" --camera nowhere
+    refused 2 'shadow_map' "$crate" --view shadows
     refused 2 'field of view' "$crate" --camera 1,1,1,0,0,0,179
     refused 2 'seven numbers' "$crate" --camera 1,1,1,0,0,0
     refused 2 'two points' "$crate" --camera 1,1,1,1,1,1,60

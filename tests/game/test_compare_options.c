@@ -106,6 +106,24 @@ static void test_two_scenes_are_one_too_many(void **state)
     assert_false(READ(&options, "a.glb", "b.glb"));
 }
 
+static void test_views_are_a_list_of_known_names(void **state)
+{
+    (void)state;
+    nook_compare_options options;
+    assert_true(READ(&options, "--view", "light,shadow_map,occlusion_map,light"));
+    assert_int_equal(options.views.count, 3); /* one file each */
+    assert_int_equal(options.views.items[0], NOOK_VIEW_LIGHT);
+    assert_int_equal(options.views.items[1], NOOK_VIEW_SHADOW_MAP);
+    assert_int_equal(options.views.items[2], NOOK_VIEW_OCCLUSION_MAP);
+    for (int i = 0; i < NOOK_VIEW_COUNT; i++) {
+        assert_true(READ(&options, "--view", nook_view_name((nook_view)i)));
+        assert_int_equal(options.views.items[0], i);
+    }
+    assert_false(READ(&options, "--view", "lights"));
+    assert_false(READ(&options, "--view", "light,"));
+    assert_false(READ(&options, "--view", ","));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -114,6 +132,7 @@ int main(void)
         cmocka_unit_test(test_scale_is_understood_in_all_its_spellings),
         cmocka_unit_test(test_absurd_values_are_refused_before_anything_is_done),
         cmocka_unit_test(test_two_scenes_are_one_too_many),
+        cmocka_unit_test(test_views_are_a_list_of_known_names),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -224,7 +224,8 @@ static void test_every_view_shows_something_and_has_a_name(void **state)
         assert_true(nook_view_parse(nook_view_name((nook_view)view), &parsed));
         assert_int_equal(parsed, view);
         test_picture_render(&picture, (nook_view)view);
-        const uint8_t *floor = test_picture_at(&picture, 8, 15);
+        /* The map stands upright whatever the camera looks at. */
+        const uint8_t *floor = test_picture_at(&picture, 8, view == NOOK_VIEW_SHADOW_MAP ? 8 : 15);
         assert_true(floor[0] + floor[1] + floor[2] > 20);
     }
     nook_view untouched = NOOK_VIEW_DEPTH;
