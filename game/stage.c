@@ -147,6 +147,12 @@ nook_result nook_stage_set_size(nook_stage *stage, uint32_t width, uint32_t heig
     return result;
 }
 
+/* Whether GL took everything since the last check; that says itself what it did not take. */
+static nook_result check(nook_stage *stage, const char *where)
+{
+    return nook_gpu_check(stage->gpu, where) ? NOOK_E_DEVICE : NOOK_OK;
+}
+
 nook_result nook_stage_begin(nook_stage *stage, const nook_camera *camera)
 {
     nook_result result = nook_game_world_update(stage->world, stage->ao);
@@ -159,7 +165,8 @@ nook_result nook_stage_begin(nook_stage *stage, const nook_camera *camera)
                                  .draw_count = draw_count,
                                  .camera = *camera,
                                  .lights = &stage->lights };
-    return nook_frame_begin(stage->renderer, &stage->frame);
+    result = nook_frame_begin(stage->renderer, &stage->frame);
+    return result == NOOK_OK ? check(stage, "the G-buffer") : result;
 }
 
 static nook_ao_texture ao_texture(nook_texture texture)
@@ -185,7 +192,7 @@ nook_result nook_stage_finish(nook_stage *stage, bool occluded, nook_view view)
         visibility = (nook_texture){ texture.native, GL_TEXTURE_2D, texture.width, texture.height, 1, GL_R32F };
     }
     nook_frame_finish(stage->renderer, &stage->frame, visibility, view);
-    return nook_gpu_check(stage->gpu, "a frame") ? NOOK_E_DEVICE : NOOK_OK; /* the check says what it was */
+    return check(stage, "a picture");
 }
 
 void nook_stage_show(nook_stage *stage, const char *doing)

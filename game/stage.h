@@ -49,7 +49,7 @@ void nook_stage_close(nook_stage *stage); /**< Zeroed stages are allowed; become
 /** @return why not; the stage must be closed then */
 nook_result nook_stage_set_size(nook_stage *stage, uint32_t width, uint32_t height);
 
-/** Runs the systems, submits the occluders, draws the G-buffer. */
+/** Runs the systems, submits the occluders, draws the G-buffer. @return why not; NOOK_E_DEVICE: GL raised an error */
 nook_result nook_stage_begin(nook_stage *stage, const nook_camera *camera);
 /** Records the chosen technique on the last G-buffer. */
 nook_result nook_stage_occlude(nook_stage *stage);
