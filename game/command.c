@@ -61,6 +61,8 @@ int nook_command_dispatch(const nook_app *app, const nook_command *table, size_t
         nook_command_print_list(table, count);
         return NOOK_EXIT_OK;
     }
+    if (strcmp(argv[1], "--version") == 0)
+        return run_named(app, table, count, "version", argc - 1, argv + 1);
     if (argv[1][0] == '-') /* options of the main job; argv[0], the program, stands where its name is expected */
         return run_named(app, table, count, main_job, argc, argv);
     return run_named(app, table, count, argv[1], argc - 1, argv + 1);

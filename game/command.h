@@ -25,7 +25,7 @@ void nook_command_print_list(const nook_command *table, size_t count);
 
 /**
  * Runs the command that argv[1] names; the main job, `compare`, when there is none or it is an option.
- * `help`, --help and -h list the commands; `help NAME` is `NAME --help`. An unknown name is one line on standard error.
+ * `help`, --help and -h list the commands; `help NAME` is `NAME --help`; --version is the command `version`. An unknown name is one line on standard error.
  * @return what the command returned, or NOOK_EXIT_USAGE
  */
 int nook_command_dispatch(const nook_app *app, const nook_command *table, size_t count, int argc, char **argv);

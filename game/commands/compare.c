@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Sets "ao.x" and "technique.x" from the command line: the named options first, so that --param has the last word. */
+/* Sets "ao.x" and "technique.x" from the command line; what is set in two ways was refused with the options. */
 static nook_result set_params(nook_stage *stage, const nook_compare_options *options)
 {
     nook_ao *ao = stage->ao;

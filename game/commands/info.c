@@ -7,6 +7,7 @@
 #include "modules/bake/volume_file.h"
 #include <inttypes.h>
 #include <stdio.h>
+#include <string.h>
 #include <strings.h>
 
 /** A number with its name: the same word in the text and in the JSON. */
@@ -31,6 +32,50 @@ static void print_numbers(const char *name, const double *values, size_t count)
     printf("\n");
 }
 
+/* What kinds of light there are, by nook_light_kind. */
+static const char *const light_kinds[] = { "directional", "point", "spot" };
+
+static void count_lights(const nook_scene *scene, uint32_t out_counts[NOOK_COUNT(light_kinds)])
+{
+    memset(out_counts, 0, NOOK_COUNT(light_kinds) * sizeof *out_counts);
+    for (uint32_t i = 0; i < scene->light_count; i++)
+        out_counts[scene->lights[i].kind]++;
+}
+
+static void print_lights(const nook_scene *scene)
+{
+    uint32_t counts[NOOK_COUNT(light_kinds)];
+    count_lights(scene, counts);
+    printf("%-12s", "light_kinds");
+    for (size_t i = 0; i < NOOK_COUNT(light_kinds); i++)
+        printf("%s %u %s", i ? "," : "", counts[i], light_kinds[i]);
+    printf("\n");
+}
+
+/* One line each: what --camera takes. */
+static void print_cameras(const nook_scene *scene)
+{
+    for (uint32_t i = 0; i < scene->camera_count; i++)
+        printf("%-12s %s%s\n", "camera", *scene->cameras[i].name ? scene->cameras[i].name : "without a name",
+               scene->cameras[i].perspective ? "" : " (orthographic: compare cannot use it)");
+}
+
+static void add_lights_and_cameras(nook_json *json, const nook_scene *scene)
+{
+    uint32_t counts[NOOK_COUNT(light_kinds)];
+    count_lights(scene, counts);
+    nook_json_key(json, "light_kinds");
+    nook_json_begin_object(json);
+    for (size_t i = 0; i < NOOK_COUNT(light_kinds); i++)
+        nook_json_member_integer(json, light_kinds[i], counts[i]);
+    nook_json_end_object(json);
+    nook_json_key(json, "camera_names");
+    nook_json_begin_array(json);
+    for (uint32_t i = 0; i < scene->camera_count; i++)
+        nook_json_string(json, scene->cameras[i].name);
+    nook_json_end_array(json);
+}
+
 static int print_json(nook_json *json)
 {
     nook_result result = nook_json_print(json, stdout);
@@ -46,6 +91,7 @@ static int print_scene_json(const nook_scene *scene, const fact *facts, size_t f
     nook_json_member_string(&json, "kind", "scene");
     for (size_t i = 0; i < fact_count; i++)
         nook_json_member_integer(&json, facts[i].name, (int64_t)facts[i].value);
+    add_lights_and_cameras(&json, scene);
     nook_json_key(&json, "bounds_min");
     empty ? nook_json_null(&json) : nook_json_numbers(&json, scene->bounds_min, 3);
     nook_json_key(&json, "bounds_max");
@@ -82,6 +128,8 @@ static int print_scene(const nook_scene *scene, bool as_json)
     printf("%-12s %s\n", "path", scene->path);
     for (size_t i = 0; i < NOOK_COUNT(facts); i++)
         printf("%-12s %" PRIu64 "\n", facts[i].name, facts[i].value);
+    print_lights(scene);
+    print_cameras(scene);
     if (empty) {
         printf("%-12s %s\n", "bounds", "nothing is drawn");
     } else {

@@ -131,14 +131,35 @@ static nook_result check_assignment(const char *text)
     return nook_compare_check_param(text, (size_t)(equals - text), equals + 1);
 }
 
+/* One parameter said in two ways: which of them is meant cannot be known. */
+static nook_result refuse_second_way(const nook_compare_options *options, const char *assignment)
+{
+    const struct {
+        const char *option, *param;
+        bool given;
+    } ways[] = { { "r-max", "ao.r_max=", options->r_max > 0.0 },
+                 { "falloff", "ao.falloff=", options->falloff != NULL },
+                 { "ao-scale", "ao.scale=", options->ao_scale != NULL },
+                 { "reference-rays", "reference.rays=", options->reference_rays > 0 } };
+    for (size_t i = 0; i < NOOK_COUNT(ways); i++) {
+        if (ways[i].given && strncmp(assignment, ways[i].param, strlen(ways[i].param)) == 0)
+            return nook_fail(NOOK_E_ARG, "--param %s: --%s sets the same parameter; give one of the two", assignment,
+                             ways[i].option);
+    }
+    return NOOK_OK;
+}
+
 nook_result nook_compare_options_check(const nook_compare_options *options, nook_compare_choice *out_choice)
 {
     static const char falloff[] = "ao.falloff";
     nook_result result = NOOK_OK;
     if (options->falloff)
         result = nook_compare_check_param(falloff, strlen(falloff), options->falloff);
-    for (size_t i = 0; i < options->params.count && result == NOOK_OK; i++)
+    for (size_t i = 0; i < options->params.count && result == NOOK_OK; i++) {
         result = check_assignment(options->params.items[i]);
+        if (result == NOOK_OK)
+            result = refuse_second_way(options, options->params.items[i]);
+    }
     if (result == NOOK_OK && options->camera)
         result = nook_camera_check(options->camera);
     return result == NOOK_OK ? nook_compare_choose(options->techniques, out_choice) : result;

@@ -51,7 +51,8 @@ bool nook_compare_options_read(const nook_app *app, int argc, char **argv, nook_
           .kind = NOOK_OPTION_TEXT,
           .target = &out->camera,
           .placeholder = "NAME|p,t,fov",
-          .help = "a camera of the scene, or px,py,pz,tx,ty,tz,fov: eye, target, degrees; default: the scene's first" },
+          .help = "a camera of the scene (./nook info SCENE names them), or px,py,pz,tx,ty,tz,fov: eye, target,\n"
+                  "                             degrees; default: the scene's first" },
         { .name = "size",
           .kind = NOOK_OPTION_SIZE,
           .target = &out->size,

@@ -32,13 +32,20 @@ static int run_bake(const nook_app *app, int argc, char **argv)
     return note(app, argc, argv, 20);
 }
 
-static const nook_command commands[] = { { "compare", "compares", run_compare }, { "bake", "bakes", run_bake } };
+static int run_version(const nook_app *app, int argc, char **argv)
+{
+    return note(app, argc, argv, 30);
+}
+
+static const nook_command commands[] = { { "compare", "compares", run_compare },
+                                         { "bake", "bakes", run_bake },
+                                         { "version", "says which", run_version } };
 static const nook_app app = { .root = "/somewhere" };
 
 static int dispatch(int argc, char **argv)
 {
     memset(&seen, 0, sizeof seen);
-    return nook_command_dispatch(&app, commands, 2, argc, argv);
+    return nook_command_dispatch(&app, commands, sizeof commands / sizeof *commands, argc, argv);
 }
 
 #define DISPATCH(...) \
@@ -68,6 +75,14 @@ static void test_an_option_in_place_of_a_command_goes_to_compare(void **state)
     assert_int_equal(seen.argc, 3);
     assert_string_equal(seen.words[1], "--size");
     assert_string_equal(seen.words[2], "4x4");
+}
+
+static void test_the_option_version_is_the_command(void **state)
+{
+    (void)state;
+    assert_int_equal(DISPATCH("--version"), 30);
+    assert_int_equal(seen.argc, 1);
+    assert_int_equal(DISPATCH("version"), 30);
 }
 
 static void test_help_with_a_name_asks_that_command_for_help(void **state)
@@ -115,6 +130,7 @@ int main(void)
         cmocka_unit_test(test_a_command_gets_its_own_words_and_the_app),
         cmocka_unit_test(test_no_command_means_compare),
         cmocka_unit_test(test_an_option_in_place_of_a_command_goes_to_compare),
+        cmocka_unit_test(test_the_option_version_is_the_command),
         cmocka_unit_test(test_help_with_a_name_asks_that_command_for_help),
         cmocka_unit_test(test_help_alone_runs_no_command),
         cmocka_unit_test(test_an_unknown_command_is_a_usage_error),

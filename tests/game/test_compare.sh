@@ -142,6 +142,10 @@ test_bad_input_is_one_line_and_leaves_nothing_behind() {
     refused 2 'magic' "$crate" --param magic.rays=1
     refused 2 'technique.name=value' "$crate" --param volume.rays
     refused 2 'no such parameter' "$crate" --param volume=3
+    refused 2 '--r-max sets the same' "$crate" --r-max 1 --param ao.r_max=2
+    refused 2 '--falloff sets the same' "$crate" --param ao.falloff=hard --falloff linear
+    refused 2 '--ao-scale sets the same' "$crate" --param ao.scale=half --ao-scale half
+    refused 2 '--reference-rays sets the same' "$crate" --param reference.rays=4 --reference-rays 4
     refused 2 'magic' "$tmp/missing.glb" --techniques magic # before the scene is looked for
 }
 

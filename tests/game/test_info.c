@@ -101,6 +101,43 @@ static void test_a_scene_is_described_as_text(void **state)
     assert_non_null(strstr(r.output, "warnings     1\n"));
 }
 
+static const char *write_cameras_and_lights(void)
+{
+    return test_gltf_write(
+        "seen.gltf",
+        "{ 'asset': { 'version': '2.0' }, 'extensionsUsed': [ 'KHR_lights_punctual' ], 'extensions': { "
+        "'KHR_lights_punctual': { 'lights': [ { 'type': 'point' }, { 'type': 'directional' } ] } }, 'cameras': [ { "
+        "'type': "
+        "'perspective', 'perspective': { 'yfov': 1, 'znear': 0.1 } }, { 'type': 'orthographic', 'orthographic': { "
+        "'xmag': "
+        "1, 'ymag': 1, 'znear': 0.1, 'zfar': 9 } } ], 'scenes': [ { 'nodes': [ 0, 1, 2, 3, 4 ] } ], 'nodes': [ { "
+        "'name': "
+        "'door', 'camera': 0 }, { 'name': 'plan', 'camera': 1 }, { 'extensions': { 'KHR_lights_punctual': { 'light': 0 "
+        "} } "
+        "}, { 'extensions': { 'KHR_lights_punctual': { 'light': 0 } } }, { 'extensions': { 'KHR_lights_punctual': { "
+        "'light': 1 } } } ] }");
+}
+
+static void test_cameras_are_named_and_lights_counted_by_kind(void **state)
+{
+    (void)state;
+    nook_json_tree tree = { 0 };
+    run r = run_info(write_cameras_and_lights(), NULL);
+    assert_int_equal(r.exit_code, NOOK_EXIT_OK);
+    assert_non_null(strstr(r.output, "light_kinds  1 directional, 2 point, 0 spot\n"));
+    assert_non_null(strstr(r.output, "camera       door\ncamera       plan (orthographic"));
+    r = run_info("--json", write_cameras_and_lights());
+    assert_int_equal(nook_json_tree_read("output", r.output, strlen(r.output), 16, &tree), NOOK_OK);
+    uint32_t names = nook_json_tree_find(&tree, 0, "camera_names");
+    assert_int_equal(tree.values[names].count, 2);
+    assert_true(nook_json_tree_string_is(&tree, names + 1, "door"));
+    uint64_t points = 0;
+    uint32_t kinds = nook_json_tree_find(&tree, 0, "light_kinds");
+    assert_true(nook_json_tree_integer(&tree, nook_json_tree_find(&tree, kinds, "point"), &points));
+    assert_int_equal(points, 2);
+    nook_json_tree_free(&tree);
+}
+
 static void test_an_empty_scene_has_no_box(void **state)
 {
     (void)state;
@@ -169,6 +206,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_a_scene_is_described_as_json),
         cmocka_unit_test(test_a_scene_is_described_as_text),
+        cmocka_unit_test(test_cameras_are_named_and_lights_counted_by_kind),
         cmocka_unit_test(test_an_empty_scene_has_no_box),
         cmocka_unit_test(test_a_baked_volume_is_described),
         cmocka_unit_test(test_a_scalar_volume_is_described),
