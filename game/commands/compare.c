@@ -4,6 +4,7 @@
 #include "game/compare/camera.h"
 #include "game/compare/options.h"
 #include "game/compare/output.h"
+#include "game/compare/param_list.h"
 #include "game/compare/report.h"
 #include "game/compare/run.h"
 #include "game/exposure.h"
@@ -118,6 +119,10 @@ int nook_command_compare(const nook_app *app, int argc, char **argv)
     int exit_code;
     if (!nook_compare_options_read(app, argc, argv, &options, &exit_code))
         return exit_code;
+    if (options.list_params) {
+        nook_compare_list_params(stdout);
+        return NOOK_EXIT_OK;
+    }
     if (nook_compare_options_check(&options, &choice) != NOOK_OK)
         return NOOK_EXIT_USAGE;
     const nook_stage_desc desc = { .root = app->root,
@@ -132,7 +137,7 @@ int nook_command_compare(const nook_app *app, int argc, char **argv)
     if (result == NOOK_OK)
         result = compare(&stage, &options, &choice, &camera);
     if (result == NOOK_OK && stage.shows && !stage.stop_asked)
-        result = nook_view_run(&stage, &camera, nook_path_name(options.scene));
+        result = nook_view_run(&stage, &camera, &choice, nook_path_name(options.scene));
     nook_stage_close(&stage);
     return result == NOOK_OK ? NOOK_EXIT_OK : NOOK_EXIT_FAILED;
 }

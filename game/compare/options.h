@@ -24,7 +24,8 @@ typedef struct nook_compare_options {
     const char *cache;
     bool no_instability; /**< No second view: about half the work. */
     bool no_window;
-    bool json; /**< compare.json on standard output instead of the table. */
+    bool list_params; /**< Do nothing but print them (game/compare/param_list.h). */
+    bool json;        /**< compare.json on standard output instead of the table. */
     char default_scene[NOOK_COMPARE_PATH_MAX], default_cache[NOOK_COMPARE_PATH_MAX];
 } nook_compare_options;
 

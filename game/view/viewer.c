@@ -5,6 +5,7 @@
 #include "game/view/orbit.h"
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 #include <time.h>
 
 static const double still_after_ms = 200.0; /* from the last movement to the full picture */
@@ -16,6 +17,7 @@ enum { SCALE_WHILE_MOVING = 2 /* quarter, modules/ao/params.def */ };
 typedef struct viewer {
     nook_stage *stage;
     const char *scene_name;
+    const nook_compare_choice *choice;
     nook_orbit orbit;
     double diagonal, scale;             /* metres; ao.scale when nothing moves */
     const nook_ao_technique *technique; /* NULL: none */
@@ -30,15 +32,42 @@ typedef struct viewer {
     double moved_ms, polled_ms;
 } viewer;
 
+/* What that number key chooses, or NULL: what is measured first, then what it is measured against. */
+static const nook_ao_technique *technique_of_key(const nook_compare_choice *choice, int key)
+{
+    for (uint32_t exact = 0; exact < 2; exact++) {
+        for (uint32_t i = 0; i < choice->count; i++) {
+            if (choice->techniques[i]->exact == exact && --key == 0)
+                return choice->techniques[i];
+        }
+    }
+    return NULL;
+}
+
 static void choose_technique(viewer *v, int key)
 {
-    const nook_ao_technique *technique = key == 0 ? NULL : nook_ao_technique_at(v->stage->ao, (uint32_t)key - 1);
+    const nook_ao_technique *technique = technique_of_key(v->choice, key);
     if (key > 0 && !technique)
         return;
     v->technique = technique;
     v->key = key;
     v->changed = true;
     nook_log_info("view: technique %s", technique ? technique->name : "none");
+}
+
+/* The views in the order of V: the picture, visibility, then the others as they are declared. */
+static nook_view step_view(nook_view view, int step)
+{
+    const int second = NOOK_VIEW_VISIBILITY;
+    int place = (int)view;
+    if (place == second)
+        place = 1;
+    else if (place > NOOK_VIEW_LIT && place < second)
+        place++;
+    place = (place + step + NOOK_VIEW_COUNT) % NOOK_VIEW_COUNT;
+    if (place == 1)
+        return NOOK_VIEW_VISIBILITY;
+    return (nook_view)(place > 1 && place <= second ? place - 1 : place);
 }
 
 static void read_keys(viewer *v, const nook_input *input)
@@ -48,8 +77,7 @@ static void read_keys(viewer *v, const nook_input *input)
             choose_technique(v, key);
     }
     if (input->pressed[NOOK_KEY_V] || input->pressed[NOOK_KEY_F]) {
-        int step = input->down[NOOK_KEY_SHIFT] ? NOOK_VIEW_COUNT - 1 : 1;
-        v->view = (nook_view)(((int)v->view + step) % NOOK_VIEW_COUNT);
+        v->view = step_view(v->view, input->down[NOOK_KEY_SHIFT] ? -1 : 1);
         v->reshade = true;
     }
 }
@@ -84,6 +112,18 @@ static void next_camera(viewer *v)
     v->orbit = orbit_from(v, &camera);
     v->changed = true;
     nook_log_info("view: camera %s", found->name);
+}
+
+/* The place in the scene's list after the camera that is `camera`; 0 when none of them is. */
+static uint32_t camera_after(const nook_scene *scene, const nook_camera *camera)
+{
+    const nook_scene_camera *listed;
+    for (uint32_t i = 0; (listed = nook_camera_at(scene, i)); i++) {
+        nook_camera other = nook_camera_from_scene(listed);
+        if (memcmp(&other.view_from_world, &camera->view_from_world, sizeof other.view_from_world) == 0)
+            return i + 1;
+    }
+    return 0;
 }
 
 static bool drag(viewer *v, const nook_input *input)
@@ -212,13 +252,17 @@ static nook_result loop(viewer *v)
     }
 }
 
-nook_result nook_view_run(nook_stage *stage, const nook_camera *camera, const char *scene_name)
+nook_result nook_view_run(nook_stage *stage, const nook_camera *camera, const nook_compare_choice *choice,
+                          const char *scene_name)
 {
-    viewer v = { .stage = stage, .scene_name = scene_name, .changed = true, .polled_ms = nook_clock_ms() };
+    viewer v = {
+        .stage = stage, .scene_name = scene_name, .choice = choice, .changed = true, .polled_ms = nook_clock_ms()
+    };
     double rays;
     v.diagonal = nook_scene_diagonal(stage->scene);
     v.moved_ms = v.polled_ms - still_after_ms;
     v.orbit = orbit_from(&v, camera);
+    v.camera = camera_after(stage->scene, camera);
     nook_result result = nook_ao_get_param(stage->ao, "ao.scale", &v.scale);
     if (result == NOOK_OK)
         result = nook_ao_get_param(stage->ao, "reference.rays", &rays);

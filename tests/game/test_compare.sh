@@ -114,6 +114,23 @@ test_parameters_are_applied_and_reported() {
     assert_holds "$(cat "$tmp/printed")" '"scale": "half"'
 }
 
+test_every_parameter_of_the_tables_is_listed_and_can_be_set_to_its_initial_value() {
+    compare --list-params >"$tmp/listed"
+    local file owner row name initial count=0
+    for file in modules/ao/params.def modules/ao_*/params.def; do
+        owner=$(basename "$(dirname "$file")")
+        while IFS= read -r row; do
+            name=${owner#ao_}.$row
+            grep -q "^$name  *[^ ]" "$tmp/listed" || { echo "$name is not listed"; return 1; }
+            count=$((count + 1))
+        done < <(sed -n 's/^NOOK_[A-Z]*(\([a-z0-9_]*\),.*/\1/p' "$file")
+    done
+    [ "$(grep -c '^[a-z]*\.[a-z0-9_]* ' "$tmp/listed")" -eq "$count" ]
+    while read -r name initial _; do # past the parameters, the scene that is none stops it
+        refused 1 'no such file' "$tmp/missing.glb" --param "$name=$initial"
+    done < <(grep '^[a-z]*\.' "$tmp/listed")
+}
+
 # refused CODE TEXT ARGUMENT...: that exit code, one line that holds TEXT, and no files.
 refused() {
     local code=$1 text=$2 said

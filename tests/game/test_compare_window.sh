@@ -30,12 +30,13 @@ with_display() {
     return $code
 }
 
-# in_window SCRIPT: runs it beside the program, with its window in $window; the program must end with exit code 0.
+# in_window SCRIPT [OPTION...]: runs it beside the program, with its window in $window; the program must end with exit code 0.
 in_window() {
     need_display
     export script=$1
+    shift
     with_display bash -euc '
-        "$program" compare "$crate" --size 320x200 --frames 1 --reference-rays 4 --cache "$tmp/cache" --out "$tmp/out" \
+        "$program" compare "$crate" --size 320x200 --frames 1 --reference-rays 4 --cache "$tmp/cache" --out "$tmp/out" "$@" \
             >"$tmp/table" 2>"$tmp/log" &
         program_id=$!
         wait_for() { # SECONDS COMMAND...
@@ -54,7 +55,7 @@ in_window() {
         eval "$script"
         xdotool keydown --window "$window" Escape # no release: the window is gone by then
         wait $program_id
-    '
+    ' in_window "$@"
 }
 
 test_the_window_opens_after_the_comparison_and_escape_closes_it() {
@@ -74,8 +75,20 @@ test_number_keys_choose_the_technique() {
 
 test_keys_choose_the_view_and_the_camera() {
     in_window '
+        press v; wait_for 30 title_has "visibility"
         press v; wait_for 30 title_has "base_colour"
         press c; wait_for 30 grep -q "view: camera corner" "$tmp/log"'
+}
+
+test_c_goes_to_the_next_camera_and_number_keys_only_to_chosen_techniques() {
+    sed -z 's/    2\n/    2, 3\n/; s/\n \],\n "cameras"/, { "name": "above", "camera": 0, "translation": [2.2, 2, 3.2] }&/' "$crate" >"$tmp/crates.gltf"
+    export crate=$tmp/crates.gltf
+    in_window '
+        title_has "1 hsao"
+        press c; wait_for 30 grep -q "view: camera" "$tmp/log"
+        press 3; press 2; wait_for 30 title_has "2 reference"' --techniques hsao
+    [ "$(grep -m 1 'view: camera' "$tmp/log" | sed 's/.* //')" = above ]
+    ! grep -q 'technique volume\|technique ssao' "$tmp/log"
 }
 
 test_dragging_turns_the_picture_and_a_new_size_is_filled() {
