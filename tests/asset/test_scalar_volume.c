@@ -272,7 +272,7 @@ static const char *shared_folder(void)
 {
     const char *folder = getenv("NOOK_SHARED");
     if (!folder || !nook_directory_exists(folder)) {
-        print_message("NOOK_SHARED names no directory: skipped\n");
+        print_message("NOOK_SHARED is not set or names no folder: no shared scenes\n");
         skip();
     }
     return folder;

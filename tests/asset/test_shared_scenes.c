@@ -27,7 +27,7 @@ static void require_collection(void)
         nook_path_join(folder, sizeof folder, shared, "scenes");
     if (folder[0] && nook_file_exists(nook_path_join(index, sizeof index, folder, "index.tsv")))
         return;
-    print_message("NOOK_SHARED does not name a folder with scenes/index.tsv: nothing to compare with\n");
+    print_message("NOOK_SHARED is not set or names no folder with scenes/index.tsv: no shared scenes\n");
     skip();
 }
 

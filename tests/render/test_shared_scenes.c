@@ -71,7 +71,7 @@ static void test_shared_scenes_fill_the_default_picture(void **state)
     };
     const char *shared = getenv("NOOK_SHARED");
     if (shared == NULL || !nook_directory_exists(shared)) {
-        print_message("NOOK_SHARED names no directory: skipped\n");
+        print_message("NOOK_SHARED is not set or names no folder: no shared scenes\n");
         skip();
     }
     nook_gpu *gpu = test_gpu_of(state);
