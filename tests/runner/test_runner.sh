@@ -178,7 +178,7 @@ as_reader() {
 test_a_tree_that_cannot_be_written_runs_what_is_up_to_date_and_else_says_one_line() {
     new_tree
     trap 'chmod -R u+w "$tree"' EXIT
-    as_reader test -r nook || skip_test 'this folder is closed to other users'
+    as_reader test -r "$PWD/nook" || skip_test 'this folder is closed to other users'
     chmod -R go-w,a-w "$tree"
     local said
     said=$(assert_fails 1 as_reader ./nook)
