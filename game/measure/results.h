@@ -1,0 +1,54 @@
+/**
+ * results.h - everything measured so far: rows of where, what and how much. The journal, the tables and the report are made from
+ * these rows and from nothing else.
+ */
+#pragma once
+#include "game/measure/site.h"
+#include <stddef.h>
+
+/** One setting at one site. Texts are owned by the results. */
+typedef struct nook_result_row {
+    char *scene;      /**< As reports call it: the file's name without folders. */
+    char *scene_hash; /**< Of its content, 16 hexadecimal digits. */
+    char *camera;     /**< Its name. */
+    uint32_t width, height;
+    double r_max;      /**< Metres. */
+    double r_max_part; /**< Of the scene's diagonal; 0 when it was given in metres. */
+    char *falloff;
+    char *setting;      /**< nook_setting_print. */
+    char *technique;    /**< Its first word. */
+    bool initial;       /**< The technique as it comes: every parameter at its initial value. */
+    char *build;        /**< What measured it: hash of the program and its shaders. */
+    char *machine;      /**< Renderer and processor. */
+    char *date;         /**< ISO 8601, UTC. */
+    char *picture;      /**< File of the visibility as 8-bit grey PNG, relative to the folder; "" for none. */
+    nook_sample sample; /**< Without its visibility. */
+} nook_result_row;
+
+/** Pictures and numbers of a site that no setting changes. */
+typedef struct nook_result_site {
+    char *scene, *camera;
+    uint32_t width, height;
+    double r_max;
+    char *falloff;
+    double reference_noise;
+    uint32_t reference_rays;
+    char *truth, *screen, *geometry, *lit; /**< PNG files relative to the folder; "" for none. */
+} nook_result_site;
+
+typedef struct nook_results {
+    nook_result_row *rows;
+    size_t row_count, row_capacity;
+    nook_result_site *sites;
+    size_t site_count, site_capacity;
+} nook_results;
+
+/**
+ * Reads a folder's journal; a line cut short by an interruption is left out (and said).
+ * @return NOOK_E_FORMAT a line that is no row, NOOK_E_IO, NOOK_E_MEMORY; a folder without one is no failure
+ */
+nook_result nook_results_read(const char *folder, nook_results *out_results);
+void nook_results_free(nook_results *results); /**< Zeroed ones are allowed. */
+
+/** Writes measure.csv and measure.json, each whole. @param command  the command line, for the record */
+nook_result nook_results_write(const nook_results *results, const char *folder, const char *command);

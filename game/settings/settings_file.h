@@ -1,0 +1,29 @@
+/**
+ * settings_file.h - a setting kept in a file: what `tune` writes and `--settings FILE` reads.
+ *
+ *   # Nook settings: comments to the end of the line
+ *   technique = volume
+ *   resolution = 128
+ *   rays = 4
+ *   ao.scale = half
+ *
+ * One "name = value" a line, technique first. r_max (metres) and falloff may stand there too: they are then what the commands
+ * use unless their own option says otherwise.
+ */
+#pragma once
+#include "game/settings/setting.h"
+
+typedef struct nook_settings_file {
+    nook_setting setting;
+    double r_max;     /**< Metres; 0: not given. */
+    char falloff[32]; /**< A choice of ao.falloff; "": not given. */
+} nook_settings_file;
+
+/** @return NOOK_E_NOT_FOUND, NOOK_E_IO, NOOK_E_FORMAT (file:line: what is wrong); *out untouched then */
+nook_result nook_settings_file_read(const char *path, nook_settings_file *out);
+
+/**
+ * Writes it whole or not at all.
+ * @param comment  lines for the top of the file, each ended by a newline, without '#'; NULL for none
+ */
+nook_result nook_settings_file_write(const char *path, const nook_settings_file *file, const char *comment);
