@@ -116,20 +116,20 @@ nook_result nook_stage_open(const nook_stage_desc *desc, nook_stage *out_stage)
 
 nook_result nook_stage_fill(nook_stage *stage, const nook_game_world_desc *desc)
 {
+    nook_game_world_destroy(stage->world, stage->ao);
     nook_result result = nook_game_world_create(stage->scene, stage->ao, desc, &stage->world);
-    if (result == NOOK_OK)
-        result = nook_render_scene_create(stage->gpu, stage->scene, &stage->render_scene);
-    if (result == NOOK_OK)
-        result = nook_renderer_create(stage->gpu, stage->width, stage->height, &stage->renderer);
+    if (result != NOOK_OK || stage->renderer)
+        return result;
     stage->lights = nook_lights_from_scene(stage->scene);
-    return result;
+    result = nook_render_scene_create(stage->gpu, stage->scene, &stage->render_scene);
+    return result == NOOK_OK ? nook_renderer_create(stage->gpu, stage->width, stage->height, &stage->renderer) : result;
 }
 
 void nook_stage_close(nook_stage *stage)
 {
     nook_renderer_destroy(stage->renderer);
     nook_render_scene_destroy(stage->render_scene);
-    nook_game_world_destroy(stage->world);
+    nook_game_world_destroy(stage->world, stage->ao);
     nook_ao_destroy(stage->ao);
     nook_gpu_destroy(stage->gpu);
     nook_context_destroy(stage->context);
@@ -178,7 +178,9 @@ nook_result nook_stage_occlude(nook_stage *stage)
 {
     nook_gbuffer gbuffer = nook_renderer_gbuffer(stage->renderer);
     nook_matrix clip_from_view = nook_renderer_clip_from_view(stage->renderer, &stage->frame.camera);
-    nook_ao_frame frame = { .depth = ao_texture(gbuffer.depth), .normal = ao_texture(gbuffer.geometric_normal) };
+    nook_ao_frame frame = { .depth = ao_texture(gbuffer.depth),
+                            .normal = ao_texture(gbuffer.geometric_normal),
+                            .index = stage->frame_index };
     memcpy(frame.view_from_world, stage->frame.camera.view_from_world.m, sizeof frame.view_from_world);
     memcpy(frame.clip_from_view, clip_from_view.m, sizeof frame.clip_from_view);
     return nook_ao_record(stage->ao, &frame);

@@ -31,6 +31,7 @@ typedef struct nook_stage {
     nook_frame frame;        /**< The last one begun. */
     bool shows;              /**< There is a window, and it is wanted. */
     bool stop_asked;         /**< Esc or the close button while nook_stage_show looked. */
+    uint32_t frame_index;    /**< Yours to set: seeds the noise of nook_stage_occlude. */
     nook_progress *progress; /**< Yours to set: told how far a long record is. NULL: nobody. */
 } nook_stage;
 
@@ -41,7 +42,11 @@ typedef struct nook_stage {
  */
 nook_result nook_stage_open(const nook_stage_desc *desc, nook_stage *out_stage);
 
-/** Bakes the volumes and uploads everything: the long part. @return why not; close the stage then */
+/**
+ * Bakes the volumes and uploads everything: the long part. Again with another description it replaces the volumes only; begin
+ * a frame after it.
+ * @return why not; close the stage then
+ */
 nook_result nook_stage_fill(nook_stage *stage, const nook_game_world_desc *desc);
 
 void nook_stage_close(nook_stage *stage); /**< Zeroed stages are allowed; becomes zero. */

@@ -13,6 +13,7 @@ struct nook_game_world {
     nook_draw *draws;
     nook_ao_occluder *occluders;
     nook_world_volume *volumes;
+    nook_volume_occluder *uploaded; /* of each volume */
     uint32_t volume_count;
 };
 
@@ -99,8 +100,7 @@ static nook_result make_nodes(nook_game_world *world, const nook_scene *scene, n
     return NOOK_OK;
 }
 
-static nook_result make_occluders(nook_game_world *world, const nook_scene_volumes *baked, const nook_entity *of_node,
-                                  const nook_volume_occluder *of_volume)
+static nook_result make_occluders(nook_game_world *world, const nook_scene_volumes *baked, const nook_entity *of_node)
 {
     for (uint32_t i = 0; i < baked->occluder_count; i++) {
         const nook_scene_occluder *occluder = &baked->occluders[i];
@@ -112,7 +112,7 @@ static nook_result make_occluders(nook_game_world *world, const nook_scene_volum
             entity = of_node[occluder->node];
         if (result == NOOK_OK)
             result = nook_entity_add(world->entities, entity, world->components.volume_occluder,
-                                     &of_volume[occluder->volume]);
+                                     &world->uploaded[occluder->volume]);
         if (result != NOOK_OK)
             return result;
     }
@@ -122,23 +122,22 @@ static nook_result make_occluders(nook_game_world *world, const nook_scene_volum
 static nook_result fill(nook_game_world *world, const nook_scene *scene, nook_ao *ao, nook_scene_volumes *baked)
 {
     nook_entity *of_node = calloc(scene->node_count + 1, sizeof *of_node);
-    nook_volume_occluder *of_volume = calloc(baked->volume_count + 1, sizeof *of_volume);
     world->volumes = calloc(baked->volume_count + 1, sizeof *world->volumes);
-    world->volume_count = world->volumes ? baked->volume_count : 0;
+    world->uploaded = calloc(baked->volume_count + 1, sizeof *world->uploaded);
+    world->volume_count = world->volumes && world->uploaded ? baked->volume_count : 0;
     nook_result result = NOOK_OK;
-    if (!of_node || !of_volume || !world->volumes)
+    if (!of_node || !world->volumes || !world->uploaded)
         result = nook_fail(NOOK_E_MEMORY, "%s: no memory for its entities", scene->path);
     for (uint32_t i = 0; i < baked->volume_count && result == NOOK_OK; i++) {
         describe_volume(&baked->volumes[i], &world->volumes[i]);
-        result = upload(ao, &baked->volumes[i], &of_volume[i]);
+        result = upload(ao, &baked->volumes[i], &world->uploaded[i]);
         nook_scene_volume_release(&baked->volumes[i]); /* the AO has its own copy; two of all are much memory */
     }
     if (result == NOOK_OK)
         result = make_nodes(world, scene, of_node);
     if (result == NOOK_OK)
-        result = make_occluders(world, baked, of_node, of_volume);
+        result = make_occluders(world, baked, of_node);
     free(of_node);
-    free(of_volume);
     return result;
 }
 
@@ -177,21 +176,26 @@ nook_result nook_game_world_create(const nook_scene *scene, nook_ao *ao, const n
         result = fill(world, scene, ao, &baked);
     nook_volumes_free(&baked);
     if (result != NOOK_OK) {
-        nook_game_world_destroy(world);
+        nook_game_world_destroy(world, ao);
         return result;
     }
     *out_world = world;
     return NOOK_OK;
 }
 
-void nook_game_world_destroy(nook_game_world *world)
+void nook_game_world_destroy(nook_game_world *world, nook_ao *ao)
 {
     if (!world)
         return;
+    for (uint32_t i = 0; i < world->volume_count; i++) { /* those that were not reached have no ids */
+        nook_ao_remove_volume(ao, world->uploaded[i].volume);
+        nook_ao_remove_mesh(ao, world->uploaded[i].mesh);
+    }
     nook_world_destroy(world->entities);
     free(world->draws);
     free(world->occluders);
     free(world->volumes);
+    free(world->uploaded);
     free(world);
 }
 

@@ -37,8 +37,8 @@ typedef struct nook_world_volume {
  */
 nook_result nook_game_world_create(const nook_scene *scene, nook_ao *ao, const nook_game_world_desc *desc,
                                    nook_game_world **out_world);
-void nook_game_world_destroy(
-    nook_game_world *world); /**< NULL is allowed. Leaves what it uploaded to the AO's owner. */
+/** NULL is allowed. Takes its volumes and triangles out of the AO as well. */
+void nook_game_world_destroy(nook_game_world *world, nook_ao *ao);
 
 /** Runs one frame's systems and submits the occluders they collected. @return NOOK_E_MEMORY, NOOK_E_ARG */
 nook_result nook_game_world_update(nook_game_world *world, nook_ao *ao);

@@ -67,6 +67,7 @@ struct nook_ao {
 /** Makes the textures fit width, height and scale; keeps them when they do. @return NOOK_E_MEMORY, NOOK_E_DEVICE */
 nook_result ao_targets_fit(nook_gpu *gpu, ao_targets *targets, uint32_t width, uint32_t height, uint32_t scale);
 void ao_targets_release(nook_gpu *gpu, ao_targets *targets);
+uint64_t ao_targets_bytes(const ao_targets *targets); /**< As they are now. */
 
 /** Composes this frame's marched occluders into ao->gpu_occluders. @return how many */
 uint32_t ao_collect_volumes(nook_ao *ao, const nook_matrix *view_from_world);

@@ -109,6 +109,9 @@ nook_result nook_ao_parse_param(nook_ao *ao, const char *name, const char *text)
 /** @return NOOK_E_NOT_FOUND */
 nook_result nook_ao_get_param(const nook_ao *ao, const char *name, double *out_value);
 
+/** Puts every parameter of every technique, and the shared ones, to its initial value. */
+void nook_ao_reset_params(nook_ao *ao);
+
 /** For menus and reports. @return the index-th technique's descriptor, or NULL past the end */
 const struct nook_ao_technique *nook_ao_technique_at(const nook_ao *ao, uint32_t index);
 /** The table of "ao.*" parameters. */
@@ -136,6 +139,8 @@ typedef struct nook_ao_statistics {
         fetches_per_pixel; /**< Texture fetches of the trace per full-size pixel with geometry; needs ao.count = 1, else 0. */
     uint32_t occluders;    /**< Marched this frame. */
     uint64_t volume_bytes; /**< On the GPU. */
+    uint64_t
+        texture_bytes; /**< Of the frame's textures: depth, normals and visibility at the host's size and the trace's. */
 } nook_ao_statistics;
 void nook_ao_get_statistics(nook_ao *ao, nook_ao_statistics *out_statistics); /**< Waits for the GPU. */
 

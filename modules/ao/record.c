@@ -268,6 +268,7 @@ void nook_ao_get_statistics(nook_ao *ao, nook_ao_statistics *out_statistics)
     uint32_t counted[2] = { 0, 0 };
     *out_statistics = ao->statistics;
     out_statistics->volume_bytes = volume_atlas_bytes(&ao->atlas);
+    out_statistics->texture_bytes = ao_targets_bytes(&ao->targets);
     out_statistics->fetches_per_pixel = 0.0;
     if (!ao->shared.count)
         return;

@@ -98,6 +98,15 @@ nook_result nook_ao_get_param(const nook_ao *ao, const char *name, double *out_v
     return result;
 }
 
+void nook_ao_reset_params(nook_ao *ao)
+{
+    nook_param_reset(ao_shared_table, NOOK_COUNT(ao_shared_table), &ao->shared);
+    for (uint32_t i = 0; i < ao->slot_count; i++) {
+        const nook_ao_technique *technique = ao->slots[i].technique;
+        nook_param_reset(technique->params, technique->param_count, ao->slots[i].params);
+    }
+}
+
 const struct nook_ao_technique *nook_ao_technique_at(const nook_ao *ao, uint32_t index)
 {
     return technique_at(ao, index);

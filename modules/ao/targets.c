@@ -61,3 +61,16 @@ nook_result ao_targets_fit(nook_gpu *gpu, ao_targets *targets, uint32_t width, u
         ao_targets_release(gpu, targets);
     return result;
 }
+
+static uint64_t pixels(const nook_texture *texture)
+{
+    return (uint64_t)texture->width * texture->height; /* 0 for those that are not there */
+}
+
+uint64_t ao_targets_bytes(const ao_targets *targets)
+{
+    enum { DEPTH_BYTES = 4, NORMAL_BYTES = 4, VISIBILITY_BYTES = 4 }; /* R32F, RG16, R32F */
+    return DEPTH_BYTES * (pixels(&targets->depth) + pixels(&targets->trace_depth)) +
+           NORMAL_BYTES * (pixels(&targets->normal) + pixels(&targets->trace_normal)) +
+           VISIBILITY_BYTES * (pixels(&targets->visibility) + pixels(&targets->trace_visibility));
+}

@@ -132,14 +132,14 @@ nook_result volume_atlas_add(volume_atlas *atlas, nook_volume *volume, uint32_t 
     return NOOK_OK;
 }
 
-/** Free boxes are never joined; but once nothing is left (a level is over), all of it is one again. */
-static void join_when_empty(volume_atlas *atlas)
+/** Free boxes are never joined; but once nothing is left (a level is over), all of it goes, and its memory with it. */
+static void release_when_empty(volume_atlas *atlas)
 {
     if (atlas->entry_count > 0)
         return;
-    const atlas_box all = { { 0, 0, 0 }, { atlas->size[0], atlas->size[1], atlas->size[2] } };
     atlas->free_count = 0;
-    add_free_box(atlas, &all);
+    memset(atlas->size, 0, sizeof atlas->size);
+    nook_texture_destroy(atlas->gpu, &atlas->texture);
 }
 
 /** Entries stand in the order of their ids: they are added at the end, and removal keeps the order. */
@@ -164,7 +164,7 @@ void volume_atlas_remove(volume_atlas *atlas, uint32_t id)
     add_free_box(atlas, &atlas->entries[i].box);
     free(atlas->entries[i].pending);
     memmove(atlas->entries + i, atlas->entries + i + 1, (--atlas->entry_count - i) * sizeof *atlas->entries);
-    join_when_empty(atlas);
+    release_when_empty(atlas);
 }
 
 const atlas_entry *volume_atlas_find(const volume_atlas *atlas, uint32_t id)

@@ -148,6 +148,24 @@ static void test_settings_of_a_technique_outlive_a_change_of_technique(void **st
     assert_true(value_of(ao, "reference.rays") == 64.0);
 }
 
+static void test_settings_all_go_back_to_their_initial_values(void **state)
+{
+    nook_ao *ao = context(state);
+    assert_int_equal(nook_ao_set_param(ao, "ssao.samples", 77.0), NOOK_OK);
+    assert_int_equal(nook_ao_set_param(ao, "ao.filter_radius", 7.0), NOOK_OK);
+    nook_ao_reset_params(ao);
+    for (uint32_t i = 0; nook_ao_technique_at(ao, i); i++) {
+        const nook_ao_technique *technique = nook_ao_technique_at(ao, i);
+        for (uint32_t k = 0; k < technique->param_count; k++) {
+            char name[128];
+            double initial = technique->params[k].initial;
+            snprintf(name, sizeof name, "%s.%s", technique->name, technique->params[k].name);
+            assert_true(fabs(value_of(ao, name) - initial) <= 1e-6 * fabs(initial));
+        }
+    }
+    assert_true(value_of(ao, "ao.filter_radius") == 4.0);
+}
+
 static void test_settings_tables_list_every_parameter_with_its_initial_value(void **state)
 {
     ao_view *view = *state;
@@ -418,6 +436,7 @@ int main(void)
         cmocka_unit_test(test_settings_keep_the_old_value_when_the_new_one_is_out_of_range),
         cmocka_unit_test(test_settings_take_choices_by_name_and_number),
         cmocka_unit_test(test_settings_of_a_technique_outlive_a_change_of_technique),
+        cmocka_unit_test(test_settings_all_go_back_to_their_initial_values),
         cmocka_unit_test(test_settings_tables_list_every_parameter_with_its_initial_value),
         cmocka_unit_test(test_context_refuses_another_version_no_device_and_no_pixels),
         cmocka_unit_test(test_context_refuses_techniques_of_another_version_or_name),

@@ -128,23 +128,29 @@ static void test_atlas_puts_a_volume_of_the_same_size_where_one_was_removed(void
     volume_atlas_release(&atlas);
 }
 
-static void test_atlas_that_is_emptied_holds_any_sizes_anew(void **state)
+static void test_atlas_that_is_emptied_holds_any_sizes_anew_and_gives_its_memory_back(void **state)
 {
     volume_atlas atlas;
     volume_atlas_init(&atlas, test_gpu_of(state));
     held item;
     add(&atlas, &item, 64, 64, 64, 1);
-    uint64_t bytes = volume_atlas_bytes(&atlas);
     volume_atlas_remove(&atlas, item.id);
+    assert_true(volume_atlas_bytes(&atlas) == 0);
     for (uint32_t round = 1; round < 40; round++) { /* a level is left, another one entered */
         held items[4];
-        for (uint32_t i = 0; i < 4; i++)
+        uint64_t voxels = 0;
+        for (uint32_t i = 0; i < 4; i++) {
             add(&atlas, &items[i], 16 + round % 16, 20 + i, 30 - round % 13, round + i);
+            voxels += (uint64_t)(16 + round % 16) * (20 + i) * (30 - round % 13);
+        }
         check_boxes(&atlas);
+        assert_true(volume_atlas_bytes(&atlas) < 2 * voxels); /* nothing of the 64^3 is left */
+        if (round % 8 == 0)
+            check_voxels(&atlas, items, 4);
         for (uint32_t i = 0; i < 4; i++)
             volume_atlas_remove(&atlas, items[i].id);
     }
-    assert_true(volume_atlas_bytes(&atlas) == bytes);
+    assert_true(volume_atlas_bytes(&atlas) == 0);
     volume_atlas_release(&atlas);
 }
 
@@ -204,7 +210,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_atlas_keeps_every_volume_through_growth_and_removal),
         cmocka_unit_test(test_atlas_puts_a_volume_of_the_same_size_where_one_was_removed),
-        cmocka_unit_test(test_atlas_that_is_emptied_holds_any_sizes_anew),
+        cmocka_unit_test(test_atlas_that_is_emptied_holds_any_sizes_anew_and_gives_its_memory_back),
         cmocka_unit_test(test_atlas_knows_no_id_that_was_removed),
         cmocka_unit_test(test_atlas_refuses_what_the_device_cannot_hold),
     };
