@@ -1,0 +1,110 @@
+#include "engine/core/rotation.h"
+#include "engine/core/vector.h"
+#include <float.h>
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+static const double pi = 3.14159265358979323846;
+
+static void assert_near(double actual, double expected, double tolerance)
+{
+    if (!(fabs(actual - expected) <= tolerance))
+        fail_msg("%.17g is not within %g of %.17g", actual, tolerance, expected);
+}
+
+static void assert_turns_to(const double rotation[4], const double from[3], double x, double y, double z)
+{
+    nook_matrix m = nook_rotation_matrix(rotation);
+    double out[3];
+    nook_matrix_apply_vector(&m, from, out);
+    assert_near(out[0], x, 4 * DBL_EPSILON);
+    assert_near(out[1], y, 4 * DBL_EPSILON);
+    assert_near(out[2], z, 4 * DBL_EPSILON);
+}
+
+static void test_advance_turns_right_handed_about_the_velocity(void **state)
+{
+    (void)state;
+    const double x[3] = { 1, 0, 0 }, y[3] = { 0, 1, 0 }, about_z[3] = { 0, 0, pi };
+    double rotation[4] = { 0, 0, 0, 1 };
+    nook_rotation_advance(rotation, about_z, 0.5); /* a quarter turn: pi radians per second, half a second */
+    assert_turns_to(rotation, x, 0, 1, 0);
+    assert_turns_to(rotation, y, -1, 0, 0);
+}
+
+static void test_advance_turns_about_axes_of_the_world_after_what_was_turned(void **state)
+{
+    (void)state;
+    const double about_z[3] = { 0, 0, pi / 2 }, about_x[3] = { pi / 2, 0, 0 }, x[3] = { 1, 0, 0 }, z[3] = { 0, 0, 1 };
+    double rotation[4] = { 0, 0, 0, 1 };
+    nook_rotation_advance(rotation, about_z, 1.0);
+    nook_rotation_advance(rotation, about_x, 1.0);
+    assert_turns_to(rotation, x, 0, 0, 1); /* x to y, y to z; about the body's own x it would have stayed at y */
+    assert_turns_to(rotation, z, 0, -1, 0);
+}
+
+static void test_advance_is_exact_for_any_step(void **state)
+{
+    (void)state;
+    const double x[3] = { 1, 0, 0 }, velocity[3] = { 0, 0, 1 };
+    const double angles[] = { 0.0, -0.0, 1e-320, 1e-160, 1e-9, 1e-3, 1.0, 3.0, 6.0, -2.0 };
+    for (size_t i = 0; i < sizeof angles / sizeof *angles; i++) {
+        double rotation[4] = { 0, 0, 0, 1 };
+        nook_rotation_advance(rotation, velocity, angles[i]);
+        assert_turns_to(rotation, x, cos(angles[i]), sin(angles[i]), 0);
+    }
+}
+
+static void test_advance_brings_a_quaternion_back_to_unit_length(void **state)
+{
+    (void)state;
+    const double velocity[3] = { 0.3, -0.2, 0.9 };
+    double rotation[4] = { 1e-3, 0, 0, 1.0 };
+    nook_rotation_advance(rotation, velocity, 0.01);
+    assert_near(nook_vector_dot(rotation, rotation) + rotation[3] * rotation[3], 1.0, 2 * DBL_EPSILON);
+}
+
+static void test_ten_thousand_steps_end_where_one_ends(void **state)
+{
+    (void)state;
+    enum { STEPS = 10000 };
+    const double velocity[3] = { 0.3, -1.2, 0.4 }; /* 1.3 radians per second */
+    double small[4] = { 0.1, 0.7, 0.1, 0.7 }, large[4] = { 0.1, 0.7, 0.1, 0.7 };
+    for (int i = 0; i < STEPS; i++)
+        nook_rotation_advance(small, velocity, 1.0 / STEPS);
+    nook_rotation_advance(large, velocity, 1.0);
+    for (int i = 0; i < 4; i++) /* the angle's error, halved in a quaternion */
+        assert_near(small[i], large[i], STEPS * 2 * DBL_EPSILON);
+}
+
+static void test_matrix_is_orthonormal_and_not_mirrored(void **state)
+{
+    (void)state;
+    const double velocity[3] = { 1.0, 2.0, -3.0 };
+    double rotation[4] = { 0, 0, 0, 1 };
+    for (int i = 0; i < 1000; i++) {
+        nook_rotation_advance(rotation, velocity, 0.37);
+        nook_matrix m = nook_rotation_matrix(rotation);
+        for (int a = 0; a < 3; a++)
+            for (int b = a; b < 3; b++)
+                assert_near(nook_vector_dot(m.m + 4 * a, m.m + 4 * b), a == b, 8 * DBL_EPSILON);
+        assert_true(nook_matrix_determinant3(&m) > 0.0);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_advance_turns_right_handed_about_the_velocity),
+        cmocka_unit_test(test_advance_turns_about_axes_of_the_world_after_what_was_turned),
+        cmocka_unit_test(test_advance_is_exact_for_any_step),
+        cmocka_unit_test(test_advance_brings_a_quaternion_back_to_unit_length),
+        cmocka_unit_test(test_ten_thousand_steps_end_where_one_ends),
+        cmocka_unit_test(test_matrix_is_orthonormal_and_not_mirrored),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
