@@ -53,7 +53,7 @@ typedef struct nook_scene_volumes {
 } nook_scene_volumes;
 
 typedef struct nook_volumes_desc {
-    uint32_t resolution;   /**< [1, 510]; 0: NOOK_VOLUMES_RESOLUTION_DEFAULT. */
+    uint32_t resolution;   /**< [1, 512]; 0: NOOK_VOLUMES_RESOLUTION_DEFAULT. */
     double r_max;          /**< Metres; 0: NOOK_VOLUMES_R_MAX_DEFAULT of the diagonal. */
     const char *cache_dir; /**< NULL: no cache. */
     bool must_keep;        /**< Volumes that cannot be kept in the cache are a failure; else one warning. */

@@ -72,13 +72,13 @@ static bool side_ok(uint32_t side)
     return side >= 1 && side <= NOOK_VOLUME_SIDE_MAX;
 }
 
-/* What is wrong with `info`, or NULL. After it, voxel counts are at most 2^27. */
+/* What is wrong with `info`, or NULL. After it, voxel counts are below 2^28. */
 static const char *find_fault(const nook_volume_info *info)
 {
     if (info->kind != NOOK_VOLUME_BINARY)
         return "of a kind that this build does not know";
     if (!side_ok(info->width) || !side_ok(info->height) || !side_ok(info->depth))
-        return "a side is outside 1 to 512 voxels";
+        return "a side is outside 1 to 514 voxels";
     if (!isfinite(info->voxel_size) || !(info->voxel_size > 0.0))
         return "the voxel size is not a positive number";
     if (!isfinite(info->origin[0]) || !isfinite(info->origin[1]) || !isfinite(info->origin[2]))

@@ -11,7 +11,7 @@ extern "C" {
 #endif
 
 #define NOOK_VOLUME_VERSION 1u
-#define NOOK_VOLUME_SIDE_MAX 512u
+#define NOOK_VOLUME_SIDE_MAX 514u /**< 512 and the empty border on both sides. */
 
 typedef enum nook_volume_kind {
     NOOK_VOLUME_BINARY = 0, /**< A voxel is 255 where a surface was voxelised (voxelize.h says which), else 0. */

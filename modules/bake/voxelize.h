@@ -36,7 +36,7 @@ typedef struct nook_triangles {
 } nook_triangles;
 
 typedef struct nook_voxelize_desc {
-    uint32_t resolution; /**< Voxels along the longest side of the mesh's box, the border not counted: [1, 510]. */
+    uint32_t resolution; /**< Voxels along the longest side of the mesh's box, the border not counted: [1, 512]. */
     uint32_t threads;    /**< 0: all cores. The result does not depend on it. */
 } nook_voxelize_desc;
 

@@ -292,6 +292,28 @@ static void test_thin_wire_and_crumbs_do_not_vanish(void **state)
     nook_volume_free(&v);
 }
 
+static void test_largest_resolution_fills_its_volume_and_goes_through_a_file(void **state)
+{
+    (void)state;
+    float points[8][3];
+    test_make_box(1.0f, 1.0f, 1.0f / NOOK_VOXELIZE_RESOLUTION_MAX, points);
+    nook_triangles plate = test_box_triangles(points);
+    nook_volume v = test_voxelize(&plate, NOOK_VOXELIZE_RESOLUTION_MAX, 1), read;
+    assert_int_equal(v.info.width, NOOK_VOLUME_SIDE_MAX);
+    assert_int_equal(v.info.height, NOOK_VOLUME_SIDE_MAX);
+    assert_int_equal(v.info.depth, 3);
+    assert_int_equal(v.info.occupied, NOOK_VOXELIZE_RESOLUTION_MAX * NOOK_VOXELIZE_RESOLUTION_MAX);
+    test_assert_border_empty(&v);
+    void *bytes;
+    size_t size;
+    assert_int_equal(nook_volume_encode(&v, &bytes, &size), NOOK_OK);
+    assert_int_equal(nook_volume_decode("plate", bytes, size, &read), NOOK_OK);
+    test_assert_same_voxels(&v, &read);
+    free(bytes);
+    nook_volume_free(&read);
+    nook_volume_free(&v);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -304,6 +326,7 @@ int main(void)
         cmocka_unit_test(test_lines_on_voxel_centres_belong_to_both_sides),
         cmocka_unit_test(test_tiny_triangles_make_the_same_shell_as_large_ones),
         cmocka_unit_test(test_thin_wire_and_crumbs_do_not_vanish),
+        cmocka_unit_test(test_largest_resolution_fills_its_volume_and_goes_through_a_file),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

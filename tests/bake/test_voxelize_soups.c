@@ -209,7 +209,7 @@ static void test_voxelize_refuses_what_it_cannot_take(void **state)
     int lines = 0;
     nook_log_set_sink(swallow, &lines);
     assert_int_equal(nook_voxelize(&box, &desc, &v), NOOK_E_RANGE);
-    desc.resolution = 511;
+    desc.resolution = 513;
     assert_int_equal(nook_voxelize(&box, &desc, &v), NOOK_E_RANGE);
     desc.resolution = 8;
     nook_triangles bad = box;

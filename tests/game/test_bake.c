@@ -154,7 +154,7 @@ static void test_bake_refuses_absurd_options(void **state)
     (void)state;
     bench b;
     prepare(&b);
-    static char *const wrong[][2] = { { "--resolution", "0" },    { "--resolution", "511" }, { "--resolution", "-5" },
+    static char *const wrong[][2] = { { "--resolution", "0" },    { "--resolution", "513" }, { "--resolution", "-5" },
                                       { "--resolution", "many" }, { "--r-max", "0" },        { "--r-max", "-1" },
                                       { "--r-max", "nan" },       { "--threads", "-1" },     { "--cache", "" } };
     for (size_t i = 0; i < NOOK_COUNT(wrong); i++)

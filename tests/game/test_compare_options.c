@@ -90,7 +90,7 @@ static void test_absurd_values_are_refused_before_anything_is_done(void **state)
         { "--size", "600" },     { "--r-max", "0" },        { "--r-max", "-1" },       { "--r-max", "nan" },
         { "--r-max", "inf" },    { "--r-max", "1e999" },    { "--ao-scale", "3" },     { "--frames", "0" },
         { "--frames", "1.5" },   { "--out", "" },           { "--backend", "vulkan" }, { "--reference-rays", "0" },
-        { "--resolution", "0" }, { "--resolution", "511" }, { "--nonsense", "1" },
+        { "--resolution", "0" }, { "--resolution", "513" }, { "--nonsense", "1" },
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         nook_compare_options options;

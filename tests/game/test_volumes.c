@@ -301,7 +301,7 @@ static void test_absurd_settings_are_refused(void **state)
 {
     (void)state;
     stage *s = make_stage();
-    nook_volumes_desc desc = { .resolution = 511 };
+    nook_volumes_desc desc = { .resolution = 513 };
     nook_scene_volumes v = { .volume_count = 77 };
     int lines = 0;
     nook_log_set_sink(count_lines, &lines);
