@@ -1,6 +1,7 @@
 #include "game/compare/run.h"
-#include "engine/core/clock.h"
 #include "engine/core/log.h"
+#include "game/compare/frame_times.h"
+#include "game/compare/surfaces.h"
 #include "game/progress.h"
 #include <math.h>
 #include <stdio.h>
@@ -9,66 +10,18 @@
 
 enum { FRAMES_DEFAULT = 5, TIMING_BUDGET_MS = 4000 };
 
-static int compare_doubles(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static double median(double *values, uint32_t count)
-{
-    qsort(values, count, sizeof *values, compare_doubles);
-    return 0.5 * (values[(count - 1) / 2] + values[count / 2]);
-}
-
-/* One frame's wall clock, and the GPU's own where it can be trusted. */
-static nook_result time_frame(nook_stage *stage, nook_gpu_timer timer, double *out_ms, double *out_gpu_ms)
-{
-    nook_gpu_finish(stage->gpu);
-    double start = nook_clock_ms();
-    if (timer.begin)
-        nook_gpu_timer_begin(stage->gpu, timer);
-    nook_result result = nook_stage_occlude(stage);
-    if (timer.begin)
-        nook_gpu_timer_end(stage->gpu, timer);
-    nook_gpu_finish(stage->gpu);
-    *out_ms = nook_clock_ms() - start;
-    *out_gpu_ms = timer.begin ? nook_gpu_timer_ms(stage->gpu, timer) : NAN;
-    return result;
-}
-
-/* Until `row->frames` are timed, or after `budget_ms` if that is sooner; row->frames becomes how many there were. */
-static nook_result time_each(nook_stage *stage, nook_gpu_timer timer, double budget_ms, nook_compare_row *row,
-                             double *times, double *gpu_times)
-{
-    double spent = 0.0;
-    uint32_t done = 0;
-    while (done < row->frames && spent < budget_ms) {
-        nook_result result = time_frame(stage, timer, &times[done], &gpu_times[done]);
-        if (result != NOOK_OK)
-            return result;
-        spent += times[done++];
-    }
-    row->frames = done;
-    row->ms_median = median(times, done); /* leaves them sorted */
-    row->ms_min = times[0];
-    row->ms_max = times[done - 1];
-    row->gpu_ms_median = timer.begin ? median(gpu_times, done) : NAN;
-    return NOOK_OK;
-}
-
 static nook_result time_frames(nook_stage *stage, double budget_ms, nook_compare_row *row)
 {
-    double *times = calloc(row->frames, 2 * sizeof *times);
-    if (!times)
-        return nook_fail(NOOK_E_MEMORY, "no memory for %u times", row->frames);
-    nook_gpu_timer timer = { 0 };
-    if (nook_gpu_timer_trusted(stage->gpu))
-        nook_gpu_timer_create(stage->gpu, &timer);
-    nook_result result = time_each(stage, timer, budget_ms, row, times, times + row->frames);
-    nook_gpu_timer_destroy(stage->gpu, &timer);
-    free(times);
-    return result;
+    nook_frame_times times;
+    nook_result result = nook_frame_times_measure(stage, row->frames, budget_ms, &times);
+    if (result != NOOK_OK)
+        return result;
+    row->frames = times.frames;
+    row->ms_median = times.median;
+    row->ms_min = times.min;
+    row->ms_max = times.max;
+    row->gpu_ms_median = times.gpu_median;
+    return NOOK_OK;
 }
 
 /* Counting slows the shaders down, so it has a frame of its own; that one warms up what the others share with it. */
@@ -105,30 +58,6 @@ static nook_result read_lit(nook_stage *stage, nook_picture *out_picture)
     result = nook_stage_finish(stage, true, NOOK_VIEW_LIT);
     nook_renderer_read(stage->renderer, &out_picture->pixels->r);
     return result;
-}
-
-static nook_result read_geometry(nook_stage *stage, uint8_t **out_geometry)
-{
-    size_t pixels = (size_t)stage->width * stage->height;
-    float *depth = malloc(pixels * sizeof *depth);
-    uint8_t *geometry = malloc(pixels);
-    if (!depth || !geometry) {
-        free(depth);
-        free(geometry);
-        return nook_fail(NOOK_E_MEMORY, "no memory to read back %zu pixels", pixels);
-    }
-    nook_texture_read(stage->gpu, nook_renderer_gbuffer(stage->renderer).depth, GL_DEPTH_COMPONENT, GL_FLOAT, depth,
-                      pixels * sizeof *depth);
-    size_t seen = 0;
-    for (size_t i = 0; i < pixels; i++) {
-        geometry[i] = depth[i] > 0.0f; /* reversed: 0 is infinitely far */
-        seen += geometry[i];
-    }
-    free(depth);
-    *out_geometry = geometry; /* whose owner frees it, whatever comes of this */
-    if (seen == 0)
-        return nook_fail(NOOK_E_NOT_FOUND, "the camera sees nothing of the scene; choose another with --camera");
-    return NOOK_OK;
 }
 
 static nook_result run_technique(nook_stage *stage, double budget_ms, nook_compare_row *row)
@@ -171,7 +100,7 @@ nook_result nook_compare_run(nook_stage *stage, const nook_camera *camera, const
     *out_comparison = (nook_comparison){ .width = stage->width, .height = stage->height };
     nook_result result = nook_stage_begin(stage, camera);
     if (result == NOOK_OK)
-        result = read_geometry(stage, &out_comparison->geometry);
+        result = nook_geometry_read(stage, &out_comparison->geometry);
     if (result == NOOK_OK)
         result = nook_stage_finish(stage, false, NOOK_VIEW_LIT);
     if (result == NOOK_OK)

@@ -1,6 +1,7 @@
 #include "game/compare/second_view.h"
 #include "engine/core/log.h"
 #include "game/compare/run.h"
+#include "game/compare/surfaces.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -62,90 +63,19 @@ nook_result nook_middle_distance(const float *distances, uint32_t width, uint32_
     return count > 0 ? NOOK_OK : nook_fail(NOOK_E_NOT_FOUND, "the camera sees nothing of the scene");
 }
 
-/* What a camera sees, with the arrays that a nook_seen borrows. */
-typedef struct geometry {
-    float *distances, *normals;
-    nook_seen seen;
-} geometry;
-
-static void geometry_free(geometry *g)
-{
-    free(g->distances);
-    free(g->normals);
-    *g = (geometry){ 0 };
-}
-
-/* As shaders/nook/octahedral.glsl reads it. */
-static void decode_normal(const uint16_t stored[2], float out[3])
-{
-    double x = (stored[0] - 32768.0) / 32767.0, y = (stored[1] - 32768.0) / 32767.0;
-    double z = 1.0 - fabs(x) - fabs(y);
-    if (z < 0.0) {
-        double kept = x;
-        x = copysign(1.0 - fabs(y), x);
-        y = copysign(1.0 - fabs(kept), y);
-    }
-    double length = sqrt(x * x + y * y + z * z);
-    out[0] = (float)(x / length);
-    out[1] = (float)(y / length);
-    out[2] = (float)(z / length);
-}
-
-static nook_result read_normals(nook_stage *stage, float *out)
-{
-    size_t pixels = (size_t)stage->width * stage->height;
-    uint16_t *stored = malloc(pixels * 2 * sizeof *stored);
-    if (!stored)
-        return nook_fail(NOOK_E_MEMORY, "no memory to read back %zu normals", pixels);
-    nook_texture_read(stage->gpu, nook_renderer_gbuffer(stage->renderer).geometric_normal, GL_RG, GL_UNSIGNED_SHORT,
-                      stored, pixels * 2 * sizeof *stored);
-    for (size_t i = 0; i < pixels; i++)
-        decode_normal(&stored[2 * i], &out[3 * i]);
-    free(stored);
-    return NOOK_OK;
-}
-
-/* Draws the G-buffer of a camera and reads it back. */
-static nook_result look(nook_stage *stage, const nook_camera *camera, geometry *out)
-{
-    nook_result result = nook_stage_begin(stage, camera);
-    if (result != NOOK_OK)
-        return result;
-    size_t pixels = (size_t)stage->width * stage->height;
-    geometry g = { malloc(pixels * sizeof(float)), malloc(pixels * 3 * sizeof(float)), { .width = 0 } };
-    result = g.distances && g.normals ? read_normals(stage, g.normals)
-                                      : nook_fail(NOOK_E_MEMORY, "no memory to read back %zu pixels", pixels);
-    if (result != NOOK_OK) {
-        geometry_free(&g);
-        return result;
-    }
-    nook_texture_read(stage->gpu, nook_renderer_gbuffer(stage->renderer).depth, GL_DEPTH_COMPONENT, GL_FLOAT,
-                      g.distances, pixels * sizeof(float));
-    for (size_t i = 0; i < pixels; i++) /* stored: z_near / distance, 0 where nothing is */
-        g.distances[i] = g.distances[i] > 0.0f ? (float)(camera->z_near / (double)g.distances[i]) : 0.0f;
-    g.seen = (nook_seen){ .view_from_world = camera->view_from_world,
-                          .fov_y_radians = camera->fov_y_radians,
-                          .width = stage->width,
-                          .height = stage->height,
-                          .distances = g.distances,
-                          .normals = g.normals };
-    *out = g;
-    return NOOK_OK;
-}
-
 /* Keeps the turn with the most shared points: the match and the view of it. */
-static nook_result try_turn(nook_stage *stage, const geometry *first, const nook_camera *camera, double degrees,
+static nook_result try_turn(nook_stage *stage, const nook_surfaces *first, const nook_camera *camera, double degrees,
                             nook_second_view *best, nook_match *best_match)
 {
     nook_second_view view = { .measured = true, .degrees = degrees, .distance = best->distance };
     view.camera = nook_camera_turn(camera, view.distance, degrees);
-    geometry second;
+    nook_surfaces second;
     nook_match match;
-    nook_result result = look(stage, &view.camera, &second);
+    nook_result result = nook_surfaces_draw(stage, &view.camera, &second);
     if (result != NOOK_OK)
         return result;
     result = nook_match_create(&first->seen, &second.seen, &match);
-    geometry_free(&second);
+    nook_surfaces_free(&second);
     if (result != NOOK_OK)
         return result;
     view.shared = match.shared;
@@ -159,13 +89,13 @@ static nook_result try_turn(nook_stage *stage, const geometry *first, const nook
     return NOOK_OK;
 }
 
-static nook_result choose_view(nook_stage *stage, const nook_camera *camera, nook_second_view *out_view,
-                               nook_match *out_match)
+nook_result nook_second_view_choose(nook_stage *stage, const nook_camera *camera, nook_second_view *out_view,
+                                    nook_match *out_match)
 {
-    geometry first;
+    nook_surfaces first;
     nook_second_view best = { .measured = false };
     nook_match match = { 0 };
-    nook_result result = look(stage, camera, &first);
+    nook_result result = nook_surfaces_draw(stage, camera, &first);
     if (result != NOOK_OK)
         return result;
     result = nook_middle_distance(first.distances, stage->width, stage->height, &best.distance);
@@ -176,7 +106,7 @@ static nook_result choose_view(nook_stage *stage, const nook_camera *camera, noo
         if (result == NOOK_OK)
             result = try_turn(stage, &first, camera, -turns_degrees[i], &best, &match);
     }
-    geometry_free(&first);
+    nook_surfaces_free(&first);
     if (result != NOOK_OK) {
         nook_match_free(&match);
         return result;
@@ -212,7 +142,7 @@ nook_result nook_compare_steadiness(nook_stage *stage, nook_comparison *comparis
     nook_camera camera = stage->frame.camera;
     nook_second_view view;
     nook_match match;
-    nook_result result = choose_view(stage, &camera, &view, &match);
+    nook_result result = nook_second_view_choose(stage, &camera, &view, &match);
     if (result != NOOK_OK)
         return result;
     result = nook_stage_begin(stage, &view.camera);

@@ -29,9 +29,17 @@ nook_camera nook_camera_turn(const nook_camera *camera, double distance, double 
 nook_result nook_middle_distance(const float *distances, uint32_t width, uint32_t height, double *out_distance);
 
 /**
+ * Chooses the second camera: 20 degrees to the side from which more of the same points are seen; 10, then 5, where that leaves
+ * less than a quarter of them. The stage's frame is another camera's afterwards.
+ * @param out_match  from the first camera's pixels to the second's; owned by the caller
+ * @return NOOK_E_NOT_FOUND the camera sees nothing, NOOK_E_MEMORY, or why drawing failed; both untouched then
+ */
+nook_result nook_second_view_choose(struct nook_stage *stage, const nook_camera *camera, nook_second_view *out_view,
+                                    nook_match *out_match);
+
+/**
  * Records every technique of a finished comparison again for a second camera and fills in `second` and each row's
- * `instability`. The stage's frame is that of the first camera again afterwards. The turn is 20 degrees to the side from
- * which more of the same points are seen; 10, then 5, where that leaves less than a quarter of them.
+ * `instability`. The stage's frame is that of the first camera again afterwards.
  * @return NOOK_E_MEMORY, or why a technique failed
  */
 nook_result nook_compare_steadiness(struct nook_stage *stage, struct nook_comparison *comparison);

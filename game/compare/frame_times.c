@@ -1,0 +1,69 @@
+#include "game/compare/frame_times.h"
+#include "engine/core/clock.h"
+#include "engine/core/log.h"
+#include "game/stage.h"
+#include <math.h>
+#include <stdlib.h>
+
+static int compare_doubles(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static double median(double *values, uint32_t count)
+{
+    qsort(values, count, sizeof *values, compare_doubles);
+    return 0.5 * (values[(count - 1) / 2] + values[count / 2]);
+}
+
+/* One frame's wall clock, and the GPU's own where it can be trusted. */
+static nook_result time_frame(nook_stage *stage, nook_gpu_timer timer, double *out_ms, double *out_gpu_ms)
+{
+    nook_gpu_finish(stage->gpu);
+    double start = nook_clock_ms();
+    if (timer.begin)
+        nook_gpu_timer_begin(stage->gpu, timer);
+    nook_result result = nook_stage_occlude(stage);
+    if (timer.begin)
+        nook_gpu_timer_end(stage->gpu, timer);
+    nook_gpu_finish(stage->gpu);
+    *out_ms = nook_clock_ms() - start;
+    *out_gpu_ms = timer.begin ? nook_gpu_timer_ms(stage->gpu, timer) : NAN;
+    return result;
+}
+
+/* Until `frames` are timed, or after `budget_ms` if that is sooner. */
+static nook_result time_each(nook_stage *stage, nook_gpu_timer timer, uint32_t frames, double budget_ms, double *times,
+                             double *gpu_times, nook_frame_times *out)
+{
+    double spent = 0.0;
+    uint32_t done = 0;
+    while (done < frames && (done == 0 || spent < budget_ms)) {
+        nook_result result = time_frame(stage, timer, &times[done], &gpu_times[done]);
+        if (result != NOOK_OK)
+            return result;
+        spent += times[done++];
+    }
+    double middle = median(times, done); /* leaves them sorted */
+    *out = (nook_frame_times){ .median = middle,
+                               .min = times[0],
+                               .max = times[done - 1],
+                               .gpu_median = timer.begin ? median(gpu_times, done) : NAN,
+                               .frames = done };
+    return NOOK_OK;
+}
+
+nook_result nook_frame_times_measure(nook_stage *stage, uint32_t frames, double budget_ms, nook_frame_times *out_times)
+{
+    double *times = calloc(frames, 2 * sizeof *times);
+    if (!times)
+        return nook_fail(NOOK_E_MEMORY, "no memory for %u times", frames);
+    nook_gpu_timer timer = { 0 };
+    if (nook_gpu_timer_trusted(stage->gpu))
+        nook_gpu_timer_create(stage->gpu, &timer);
+    nook_result result = time_each(stage, timer, frames, budget_ms, times, times + frames, out_times);
+    nook_gpu_timer_destroy(stage->gpu, &timer);
+    free(times);
+    return result;
+}
