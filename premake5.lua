@@ -87,6 +87,7 @@ library("nook_ao_ecs", c_project, "modules/ao/ecs", "/**.c") -- joins the two: t
 local techniques = os.matchdirs("modules/ao_*")
 table.sort(techniques)
 for _, folder in ipairs(techniques) do library("nook_" .. path.getname(folder), c_project, folder, "/**.c") end
+library("nook_fixture", c_project, "modules/fixture", "/**.c")
 library("nook_measure", c_project, "modules/measure", "/**.c")
 library("nook_render", c_project, "engine/render", "/**.c")
 library("nook_game", c_project, "game", "/**.c")

@@ -25,15 +25,15 @@ static int teardown(void **state)
     return 0;
 }
 
-static ao_view *start(void **state, uint32_t width, uint32_t height)
+static nook_fixture_view *start(void **state, uint32_t width, uint32_t height)
 {
-    ao_view *view = *state;
+    nook_fixture_view *view = *state;
     if (width != view->width || height != view->height)
         ao_view_resize(view, width, height);
     /* Narrow: a pixel is 1/100 of its distance wide, as in a common picture of more pixels. */
     view->clip_from_view = nook_matrix_perspective_reversed(0.2, (double)width / height, 0.1);
-    view->paint = NULL;
-    ao_view_clear(view);
+    ao_view_probe(view)->paint = NULL;
+    nook_fixture_view_clear(view);
     return view;
 }
 
@@ -49,7 +49,7 @@ static double random_unit(uint32_t *state)
 }
 
 /** Depths and normals as wild as they come; about a fifth of the pixels see nothing. */
-static void draw_clutter(ao_view *view, uint32_t seed)
+static void draw_clutter(nook_fixture_view *view, uint32_t seed)
 {
     for (uint32_t i = 0; i < view->width * view->height; i++) {
         double distance = 0.1 * pow(1e4, random_unit(&seed)), n[3];
@@ -58,31 +58,31 @@ static void draw_clutter(ao_view *view, uint32_t seed)
         double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
         n[0] /= length, n[1] /= length, n[2] /= length;
         if (random_bits(&seed) % 5)
-            ao_view_set_pixel(view, i % view->width, i / view->width, distance, n);
+            nook_fixture_view_set_pixel(view, i % view->width, i / view->width, distance, n);
     }
 }
 
 /** Without a filter the technique's own image is the result, and techniques write 1 where they see nothing. */
-static float paint_constant(const ao_view *view, uint32_t x, uint32_t y)
+static float paint_constant(const ao_probe *probe, uint32_t x, uint32_t y)
 {
-    int background = view->trace_depth[y * view->trace_width + x] == 0.0f;
-    return background && view->trace_width == view->width ? 1.0f : view->painted;
+    int background = probe->depth[y * probe->width + x] == 0.0f;
+    return background && probe->width == probe->view->width ? 1.0f : probe->painted;
 }
 
 static void test_filter_gives_a_constant_back_bit_for_bit_and_background_as_one(void **state)
 {
     static const uint32_t sizes[][2] = { { 37, 23 }, { 1, 1 }, { 5, 40 }, { 64, 16 } };
     for (size_t k = 0; k < NOOK_COUNT(sizes) * 9; k++) {
-        ao_view *view = start(state, sizes[k / 9][0], sizes[k / 9][1]);
+        nook_fixture_view *view = start(state, sizes[k / 9][0], sizes[k / 9][1]);
         ao_view_param(view, "ao.scale", scales[k % 9 / 3]);
         ao_view_param(view, "ao.filter", filters[k % 3]);
         draw_clutter(view, (uint32_t)k);
-        view->paint = paint_constant;
+        ao_view_probe(view)->paint = paint_constant;
         for (int step = 0; step < 3; step++) {
-            view->painted = step == 0 ? 0.0f : step == 1 ? 0.1f : 0.7123456f;
+            ao_view_probe(view)->painted = step == 0 ? 0.0f : step == 1 ? 0.1f : 0.7123456f;
             ao_view_record(view, "probe");
             for (uint32_t i = 0; i < view->width * view->height; i++) {
-                if (view->visibility[i] != (view->device_depth[i] > 0.0f ? view->painted : 1.0f))
+                if (view->visibility[i] != (view->device_depth[i] > 0.0f ? ao_view_probe(view)->painted : 1.0f))
                     fail_msg("%ux%u, %s, %s, pixel %u: %.9g", view->width, view->height, scales[k % 9 / 3],
                              filters[k % 3], i, view->visibility[i]);
             }
@@ -91,21 +91,21 @@ static void test_filter_gives_a_constant_back_bit_for_bit_and_background_as_one(
 }
 
 /** 0 on the nearer surface, 1 behind. */
-static float paint_by_depth(const ao_view *view, uint32_t x, uint32_t y)
+static float paint_by_depth(const ao_probe *probe, uint32_t x, uint32_t y)
 {
-    return view->trace_depth[y * view->trace_width + x] < 2.0f ? 0.0f : 1.0f;
+    return probe->depth[y * probe->width + x] < 2.0f ? 0.0f : 1.0f;
 }
 
 static void test_filter_leaks_nothing_across_a_step_of_depth(void **state)
 {
     for (size_t k = 0; k < 9; k++) {
         for (uint32_t edge = 15; edge < 20; edge++) {
-            ao_view *view = start(state, 37, 23);
+            nook_fixture_view *view = start(state, 37, 23);
             ao_view_param(view, "ao.scale", scales[k / 3]);
             ao_view_param(view, "ao.filter", filters[k % 3]);
             for (uint32_t i = 0; i < 37 * 23; i++)
-                ao_view_set_pixel(view, i % 37, i / 37, i % 37 < edge ? 1.0 : 5.0, facing);
-            view->paint = paint_by_depth;
+                nook_fixture_view_set_pixel(view, i % 37, i / 37, i % 37 < edge ? 1.0 : 5.0, facing);
+            ao_view_probe(view)->paint = paint_by_depth;
             ao_view_record(view, "probe");
             for (uint32_t i = 0; i < 37 * 23; i++) {
                 if (view->visibility[i] != (i % 37 < edge ? 0.0f : 1.0f))
@@ -117,10 +117,10 @@ static void test_filter_leaks_nothing_across_a_step_of_depth(void **state)
 }
 
 /** 0 where the normal points to the left, 1 where it points to the right. */
-static float paint_by_normal(const ao_view *view, uint32_t x, uint32_t y)
+static float paint_by_normal(const ao_probe *probe, uint32_t x, uint32_t y)
 {
     double n[3];
-    ao_decode_normal(view->trace_normals[y * view->trace_width + x], n);
+    nook_fixture_decode_normal(probe->normals[y * probe->width + x], n);
     return n[0] < 0.0 ? 0.0f : 1.0f;
 }
 
@@ -129,20 +129,20 @@ static void test_filter_leaks_nothing_across_a_right_angle(void **state)
     /* An edge towards the camera along the line x = 0, z = -2: two planes at 45 degrees. */
     const double half = sqrt(0.5), left[3] = { -half, 0, half }, right[3] = { half, 0, half };
     for (size_t k = 0; k < 9; k++) {
-        ao_view *view = start(state, 37, 23);
+        nook_fixture_view *view = start(state, 37, 23);
         ao_view_param(view, "ao.scale", scales[k / 3]);
         ao_view_param(view, "ao.filter", filters[k % 3]);
         for (uint32_t i = 0; i < 37 * 23; i++) {
             double ray[3];
-            ao_view_position(view, i % 37, i / 37, 1.0, ray);
+            nook_fixture_view_position(view, i % 37, i / 37, 1.0, ray);
             const double *n = ray[0] < 0.0 ? left : right;
-            ao_view_set_pixel(view, i % 37, i / 37, -2.0 * half / (n[0] * ray[0] - half), n);
+            nook_fixture_view_set_pixel(view, i % 37, i / 37, -2.0 * half / (n[0] * ray[0] - half), n);
         }
-        view->paint = paint_by_normal;
+        ao_view_probe(view)->paint = paint_by_normal;
         ao_view_record(view, "probe");
         for (uint32_t i = 0; i < 37 * 23; i++) {
             double ray[3];
-            ao_view_position(view, i % 37, i / 37, 1.0, ray);
+            nook_fixture_view_position(view, i % 37, i / 37, 1.0, ray);
             if (view->visibility[i] != (ray[0] < 0.0 ? 0.0f : 1.0f))
                 fail_msg("%s, %s, pixel (%u, %u): %g", scales[k / 3], filters[k % 3], i % 37, i / 37,
                          view->visibility[i]);
@@ -150,9 +150,9 @@ static void test_filter_leaks_nothing_across_a_right_angle(void **state)
     }
 }
 
-static float paint_checkers(const ao_view *view, uint32_t x, uint32_t y)
+static float paint_checkers(const ao_probe *probe, uint32_t x, uint32_t y)
 {
-    (void)view;
+    (void)probe;
     return (float)((x + y) % 2);
 }
 
@@ -161,12 +161,12 @@ static void test_filter_averages_what_is_around_when_no_sample_is_on_the_surface
     /* The trace picks column and row scale / 2 of each block: nothing it saw lies on the first columns. */
     for (uint32_t k = 0; k < 4; k++) {
         uint32_t scale = k < 2 ? 2 : 4;
-        ao_view *view = start(state, 48, 32);
+        nook_fixture_view *view = start(state, 48, 32);
         ao_view_param(view, "ao.scale", scales[scale / 2]);
         ao_view_param(view, "ao.filter", filters[1 + k % 2]);
         for (uint32_t i = 0; i < 48 * 32; i++)
-            ao_view_set_pixel(view, i % 48, i / 48, i % 48 % scale ? 50.0 : 1.0, facing);
-        view->paint = paint_checkers;
+            nook_fixture_view_set_pixel(view, i % 48, i / 48, i % 48 % scale ? 50.0 : 1.0, facing);
+        ao_view_probe(view)->paint = paint_checkers;
         ao_view_record(view, "probe");
         for (uint32_t i = 0; i < 48 * 32; i++) {
             uint32_t x = i % 48, y = i / 48;
@@ -179,23 +179,23 @@ static void test_filter_averages_what_is_around_when_no_sample_is_on_the_surface
     }
 }
 
-static float paint_ramp(const ao_view *view, uint32_t x, uint32_t y)
+static float paint_ramp(const ao_probe *probe, uint32_t x, uint32_t y)
 {
     (void)y;
-    uint32_t scale = (view->width + view->trace_width - 1) / view->trace_width;
-    return (float)(x * scale + scale / 2) / (float)view->width;
+    uint32_t scale = (probe->view->width + probe->width - 1) / probe->width;
+    return (float)(x * scale + scale / 2) / (float)probe->view->width;
 }
 
 static void test_filter_of_a_ramp_stays_near_it_at_every_scale(void **state)
 {
-    ao_view *view = start(state, 96, 48);
+    nook_fixture_view *view = start(state, 96, 48);
     double n[3] = { 0.6, 0, 0.8 };
     for (uint32_t i = 0; i < 96 * 48; i++) {
         double ray[3];
-        ao_view_position(view, i % 96, i / 96, 1.0, ray);
-        ao_view_set_pixel(view, i % 96, i / 96, -2.0 * n[2] / (n[0] * ray[0] - n[2]), n);
+        nook_fixture_view_position(view, i % 96, i / 96, 1.0, ray);
+        nook_fixture_view_set_pixel(view, i % 96, i / 96, -2.0 * n[2] / (n[0] * ray[0] - n[2]), n);
     }
-    view->paint = paint_ramp;
+    ao_view_probe(view)->paint = paint_ramp;
     for (int k = 0; k < 6; k++) {
         ao_view_param(view, "ao.scale", scales[k / 2]);
         ao_view_param(view, "ao.filter", filters[1 + k % 2]);
@@ -212,14 +212,14 @@ static void test_filter_of_a_ramp_stays_near_it_at_every_scale(void **state)
     }
 }
 
-static float paint_random(const ao_view *view, uint32_t x, uint32_t y)
+static float paint_random(const ao_probe *probe, uint32_t x, uint32_t y)
 {
-    uint32_t seed = y * view->trace_width + x;
+    uint32_t seed = y * probe->width + x;
     random_bits(&seed);
     return (float)random_unit(&seed);
 }
 
-static void draw_absurdities(ao_view *view)
+static void draw_absurdities(nook_fixture_view *view)
 {
     static const float depths[] = { 0.0f,  -0.0f,  1.0f,  2.0f,     1e10f,     1e30f, 1e36f,
                                     3e38f, 1e-30f, -1.0f, INFINITY, -INFINITY, NAN,   1e-40f };
@@ -228,7 +228,7 @@ static void draw_absurdities(ao_view *view)
         view->device_depth[i] =
             random_bits(&seed) % 3 ? depths[random_bits(&seed) % NOOK_COUNT(depths)] : (float)random_unit(&seed);
         for (int k = 0; k < 2; k++)
-            view->normals[i][k] = (uint16_t)random_bits(&seed);
+            view->normals[i][k] = (float)((random_bits(&seed) & 65535u) / 65535.0);
     }
 }
 
@@ -236,12 +236,12 @@ static void draw_absurdities(ao_view *view)
 static void test_filter_never_writes_nan_whatever_the_buffers_hold(void **state)
 {
     for (size_t k = 0; k < 18; k++) {
-        ao_view *view = start(state, 37, 23);
+        nook_fixture_view *view = start(state, 37, 23);
         ao_view_param(view, "ao.scale", scales[k % 9 / 3]);
         ao_view_param(view, "ao.filter", filters[k % 3]);
         draw_absurdities(view);
         view->without_normals = k >= 9;
-        view->paint = paint_random;
+        ao_view_probe(view)->paint = paint_random;
         ao_view_record(view, "probe");
         view->without_normals = 0;
     }
@@ -250,11 +250,11 @@ static void test_filter_never_writes_nan_whatever_the_buffers_hold(void **state)
 static void test_techniques_never_write_nan_whatever_the_buffers_hold(void **state)
 {
     static const char *const techniques[] = { "volume", "ssao", "hsao", "reference" };
-    ao_view *view = start(state, 37, 23);
-    fixture_mesh mesh = { 0 };
-    fixture_box(&mesh, (double[]){ -1, -1, -3 }, (double[]){ 1, 1, -1 }, 63);
+    nook_fixture_view *view = start(state, 37, 23);
+    nook_fixture_mesh mesh = { 0 };
+    nook_fixture_add_box(&mesh, (double[]){ -1, -1, -3 }, (double[]){ 1, 1, -1 }, 63);
     ao_view_add(view, &mesh, 16);
-    fixture_mesh_free(&mesh);
+    nook_fixture_mesh_free(&mesh);
     ao_view_param(view, "ao.scale", "full");
     ao_view_param(view, "ao.filter", "disc");
     for (size_t k = 0; k < NOOK_COUNT(techniques) * 3; k++) {
@@ -262,7 +262,7 @@ static void test_techniques_never_write_nan_whatever_the_buffers_hold(void **sta
         draw_absurdities(view);
         ao_view_record(view, techniques[k / 3]);
     }
-    ao_view_drop_occluders(view);
+    nook_fixture_view_drop_occluders(view);
 }
 
 int main(void)

@@ -13,33 +13,35 @@ static const double z_near = 0.2, z_far = 80.0;
 
 typedef struct projection {
     const char *name;
-    double depth_scale, depth_offset; /* elements 10 and 14 */
-    double skew_x, skew_y;            /* elements 8 and 9: an off-centre image */
+    bool normal_z;
+    double z_far;
+    double skew[2]; /* an off-centre image */
 } projection;
 
 static size_t list_projections(projection out[8])
 {
-    const double n = z_near, f = z_far;
-    const projection kinds[4] = { { "reversed, infinite", 0.0, n, 0.0, 0.0 },
-                                  { "reversed, finite", n / (f - n), n * f / (f - n), 0.0, 0.0 },
-                                  { "normal, infinite", -1.0, -n, 0.0, 0.0 },
-                                  { "normal, finite", f / (n - f), n * f / (n - f), 0.0, 0.0 } };
+    const projection kinds[4] = { { "reversed, infinite", false, 0.0, { 0.0 } },
+                                  { "reversed, finite", false, z_far, { 0.0 } },
+                                  { "normal, infinite", true, 0.0, { 0.0 } },
+                                  { "normal, finite", true, z_far, { 0.0 } } };
     for (size_t i = 0; i < 8; i++) {
         out[i] = kinds[i / 2];
         if (i % 2)
-            out[i].skew_x = 0.7, out[i].skew_y = -0.4;
+            out[i].skew[0] = 0.7, out[i].skew[1] = -0.4;
     }
     return 8;
 }
 
-static void use(ao_view *view, const projection *p)
+static void use(nook_fixture_view *view, const projection *p)
 {
-    view->clip_from_view = nook_matrix_perspective_reversed(1.0, (double)WIDTH / HEIGHT, z_near);
-    view->clip_from_view.m[8] = p->skew_x;
-    view->clip_from_view.m[9] = p->skew_y;
-    view->clip_from_view.m[10] = p->depth_scale;
-    view->clip_from_view.m[14] = p->depth_offset;
-    ao_view_clear(view);
+    const nook_fixture_projection desc = { .fov_y_radians = 1.0,
+                                           .aspect = (double)WIDTH / HEIGHT,
+                                           .z_near = z_near,
+                                           .z_far = p->z_far,
+                                           .normal_z = p->normal_z,
+                                           .skew = { p->skew[0], p->skew[1] } };
+    view->clip_from_view = nook_fixture_projection_matrix(&desc);
+    nook_fixture_view_clear(view);
 }
 
 static int setup(void **state)
@@ -61,42 +63,42 @@ static double distance_of(uint32_t x, uint32_t y)
     return i % 7 == 3 ? 0.0 : z_near * pow(z_far / z_near, 0.01 + 0.98 * i / (WIDTH * HEIGHT));
 }
 
-static void draw_distances(ao_view *view)
+static void draw_distances(nook_fixture_view *view)
 {
     for (uint32_t i = 0; i < WIDTH * HEIGHT; i++) {
         double distance = distance_of(i % WIDTH, i / WIDTH);
         if (distance > 0.0)
-            ao_view_set_pixel(view, i % WIDTH, i / WIDTH, distance, (double[]){ 0, 0, 1 });
+            nook_fixture_view_set_pixel(view, i % WIDTH, i / WIDTH, distance, (double[]){ 0, 0, 1 });
     }
 }
 
 static void expect_distance(const projection *p, double got, double truth)
 {
     /* What a depth of 24 bits can tell: an error of 2^-24 at depth 1 is distance^2 / z_near of it. */
-    double tolerance = truth * (1e-6 + (p->depth_offset < 0.0 ? truth / z_near * 2e-7 : 2e-7 * truth / z_near));
+    double tolerance = truth * (1e-6 + (p->normal_z ? truth / z_near * 2e-7 : 2e-7 * truth / z_near));
     if (fabs(got - truth) > tolerance)
-        fail_msg("%s%s: distance %.9g, truth %.9g", p->name, p->skew_x != 0.0 ? ", off-centre" : "", got, truth);
+        fail_msg("%s%s: distance %.9g, truth %.9g", p->name, p->skew[0] != 0.0 ? ", off-centre" : "", got, truth);
 }
 
 static void test_prepare_gives_true_distances_under_every_projection(void **state)
 {
-    ao_view *view = *state;
+    nook_fixture_view *view = *state;
     projection projections[8];
     size_t count = list_projections(projections);
     for (size_t k = 0; k < count; k++) {
         use(view, &projections[k]);
         draw_distances(view);
         ao_view_record(view, "probe");
-        assert_int_equal(view->trace_width, WIDTH);
+        assert_int_equal(ao_view_probe(view)->width, WIDTH);
         for (uint32_t i = 0; i < WIDTH * HEIGHT; i++)
-            expect_distance(&projections[k], view->trace_depth[i], distance_of(i % WIDTH, i / WIDTH));
+            expect_distance(&projections[k], ao_view_probe(view)->depth[i], distance_of(i % WIDTH, i / WIDTH));
     }
 }
 
 static void test_prepare_picks_one_true_pixel_of_each_block_at_lower_scales(void **state)
 {
     static const char *const names[] = { "half", "quarter" };
-    ao_view *view = *state;
+    nook_fixture_view *view = *state;
     projection projections[8];
     list_projections(projections);
     use(view, &projections[0]);
@@ -105,12 +107,13 @@ static void test_prepare_picks_one_true_pixel_of_each_block_at_lower_scales(void
         uint32_t scale = 2u << k;
         ao_view_param(view, "ao.scale", names[k]);
         ao_view_record(view, "probe");
-        assert_int_equal(view->trace_width, (WIDTH + scale - 1) / scale);
-        assert_int_equal(view->trace_height, (HEIGHT + scale - 1) / scale);
-        for (uint32_t i = 0; i < view->trace_width * view->trace_height; i++) {
-            uint32_t x = i % view->trace_width * scale + scale / 2, y = i / view->trace_width * scale + scale / 2;
+        assert_int_equal(ao_view_probe(view)->width, (WIDTH + scale - 1) / scale);
+        assert_int_equal(ao_view_probe(view)->height, (HEIGHT + scale - 1) / scale);
+        const ao_probe *probe = ao_view_probe(view);
+        for (uint32_t i = 0; i < probe->width * probe->height; i++) {
+            uint32_t x = i % probe->width * scale + scale / 2, y = i / probe->width * scale + scale / 2;
             x = x < WIDTH ? x : WIDTH - 1, y = y < HEIGHT ? y : HEIGHT - 1;
-            expect_distance(&projections[0], view->trace_depth[i], distance_of(x, y));
+            expect_distance(&projections[0], probe->depth[i], distance_of(x, y));
         }
     }
     ao_view_param(view, "ao.scale", "full");
@@ -123,17 +126,18 @@ static void normalize(double v[3])
 }
 
 /** Distance along -Z to the plane through (0, 0, -depth) with normal n. */
-static double plane_distance(const ao_view *view, uint32_t x, uint32_t y, const double n[3], double depth)
+static double plane_distance(const nook_fixture_view *view, uint32_t x, uint32_t y, const double n[3], double depth)
 {
     double ray[3];
-    ao_view_position(view, x, y, 1.0, ray);
+    nook_fixture_view_position(view, x, y, 1.0, ray);
     return -depth * n[2] / (n[0] * ray[0] + n[1] * ray[1] + n[2] * ray[2]);
 }
 
-static void expect_normal(const ao_view *view, uint32_t x, uint32_t y, const double truth[3], double tolerance)
+static void expect_normal(const nook_fixture_view *view, uint32_t x, uint32_t y, const double truth[3],
+                          double tolerance)
 {
     double got[3];
-    ao_decode_normal(view->trace_normals[y * WIDTH + x], got);
+    nook_fixture_decode_normal(ao_view_probe(view)->normals[y * WIDTH + x], got);
     double apart = sqrt((got[0] - truth[0]) * (got[0] - truth[0]) + (got[1] - truth[1]) * (got[1] - truth[1]) +
                         (got[2] - truth[2]) * (got[2] - truth[2]));
     if (!(apart <= tolerance))
@@ -143,7 +147,7 @@ static void expect_normal(const ao_view *view, uint32_t x, uint32_t y, const dou
 
 static void test_prepare_rebuilds_normals_of_a_tilted_plane_to_the_border(void **state)
 {
-    ao_view *view = *state;
+    nook_fixture_view *view = *state;
     projection projections[8];
     size_t count = list_projections(projections);
     view->without_normals = 1;
@@ -152,7 +156,8 @@ static void test_prepare_rebuilds_normals_of_a_tilted_plane_to_the_border(void *
         normalize(n);
         use(view, &projections[k]);
         for (uint32_t i = 0; i < WIDTH * HEIGHT; i++)
-            ao_view_set_pixel(view, i % WIDTH, i / WIDTH, plane_distance(view, i % WIDTH, i / WIDTH, n, 2.0), n);
+            nook_fixture_view_set_pixel(view, i % WIDTH, i / WIDTH, plane_distance(view, i % WIDTH, i / WIDTH, n, 2.0),
+                                        n);
         ao_view_record(view, "probe");
         for (uint32_t i = 0; i < WIDTH * HEIGHT; i++)
             expect_normal(view, i % WIDTH, i / WIDTH, n, 1e-3);
@@ -162,14 +167,15 @@ static void test_prepare_rebuilds_normals_of_a_tilted_plane_to_the_border(void *
 
 static void test_prepare_rebuilds_normals_in_worlds_of_any_size(void **state)
 {
-    ao_view *view = *state;
+    nook_fixture_view *view = *state;
     double n[3] = { -0.4, 0.2, 1.0 };
     normalize(n);
     view->without_normals = 1;
     for (double size = 1e-9; size < 1e13; size *= 1e3) {
         view->clip_from_view = nook_matrix_perspective_reversed(1.0, (double)WIDTH / HEIGHT, 0.1 * size);
         for (uint32_t i = 0; i < WIDTH * HEIGHT; i++)
-            ao_view_set_pixel(view, i % WIDTH, i / WIDTH, plane_distance(view, i % WIDTH, i / WIDTH, n, size), n);
+            nook_fixture_view_set_pixel(view, i % WIDTH, i / WIDTH, plane_distance(view, i % WIDTH, i / WIDTH, n, size),
+                                        n);
         ao_view_record(view, "probe");
         for (uint32_t i = 0; i < WIDTH * HEIGHT; i++)
             expect_normal(view, i % WIDTH, i / WIDTH, n, 1e-3);
@@ -179,7 +185,7 @@ static void test_prepare_rebuilds_normals_in_worlds_of_any_size(void **state)
 
 static void test_prepare_rebuilds_normals_from_the_right_side_of_a_silhouette(void **state)
 {
-    ao_view *view = *state;
+    nook_fixture_view *view = *state;
     projection projections[8];
     list_projections(projections);
     use(view, &projections[0]);
@@ -188,7 +194,7 @@ static void test_prepare_rebuilds_normals_from_the_right_side_of_a_silhouette(vo
     for (uint32_t i = 0; i < WIDTH * HEIGHT; i++) {
         uint32_t x = i % WIDTH, y = i / WIDTH, at_left = x < 18;
         const double *n = at_left ? left : right;
-        ao_view_set_pixel(view, x, y, plane_distance(view, x, y, n, at_left ? 2.0 : 8.0), n);
+        nook_fixture_view_set_pixel(view, x, y, plane_distance(view, x, y, n, at_left ? 2.0 : 8.0), n);
     }
     view->without_normals = 1;
     ao_view_record(view, "probe");
@@ -199,11 +205,11 @@ static void test_prepare_rebuilds_normals_from_the_right_side_of_a_silhouette(vo
 
 static void test_prepare_turns_a_lone_pixel_to_the_camera(void **state)
 {
-    ao_view *view = *state;
+    nook_fixture_view *view = *state;
     projection projections[8];
     list_projections(projections);
     use(view, &projections[0]);
-    ao_view_set_pixel(view, 18, 11, 3.0, (double[]){ 1, 0, 0 });
+    nook_fixture_view_set_pixel(view, 18, 11, 3.0, (double[]){ 1, 0, 0 });
     view->without_normals = 1;
     ao_view_record(view, "probe");
     view->without_normals = 0;
@@ -212,7 +218,7 @@ static void test_prepare_turns_a_lone_pixel_to_the_camera(void **state)
 
 static void test_prepare_rotates_world_normals_into_view_space(void **state)
 {
-    ao_view *view = *state;
+    nook_fixture_view *view = *state;
     projection projections[8];
     list_projections(projections);
     const double eye[3] = { 1e6, 3, -2e5 }, target[3] = { 1e6 + 2, 4.5, -2e5 - 1 }, up[3] = { 0, 1, 0 };
@@ -221,7 +227,7 @@ static void test_prepare_rotates_world_normals_into_view_space(void **state)
     for (uint32_t i = 0; i < WIDTH * HEIGHT; i++) {
         double n[3] = { sin(0.7 * i), cos(1.3 * i), sin(2.1 * i + 1.0) };
         normalize(n);
-        ao_view_set_pixel(view, i % WIDTH, i / WIDTH, 3.0, n);
+        nook_fixture_view_set_pixel(view, i % WIDTH, i / WIDTH, 3.0, n);
     }
     ao_view_record(view, "probe");
     for (uint32_t i = 0; i < WIDTH * HEIGHT; i++) {
@@ -235,14 +241,14 @@ static void test_prepare_rotates_world_normals_into_view_space(void **state)
 
 static void test_prepare_keeps_axis_normals_exact(void **state)
 {
-    ao_view *view = *state;
+    nook_fixture_view *view = *state;
     projection projections[8];
     list_projections(projections);
     use(view, &projections[0]);
     for (uint32_t i = 0; i < 6; i++) {
         double n[3] = { 0, 0, 0 };
         n[i / 2] = i % 2 ? 1.0 : -1.0;
-        ao_view_set_pixel(view, i, 0, 3.0, n);
+        nook_fixture_view_set_pixel(view, i, 0, 3.0, n);
     }
     ao_view_record(view, "probe");
     for (uint32_t i = 0; i < 6; i++) {

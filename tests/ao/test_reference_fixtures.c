@@ -24,33 +24,34 @@ static ao_fixture *prepare(void **state, const char *falloff, const char *r_max)
 }
 
 /** Adds the mesh, measures at the origin with normal +z, and holds the result to the truth. */
-static void expect(ao_fixture *fixture, fixture_mesh *mesh, double truth)
+static void expect(ao_fixture *fixture, nook_fixture_mesh *mesh, double truth)
 {
     ao_fixture_add(fixture, mesh, 0);
-    fixture_mesh_free(mesh);
-    fixture_result got = ao_fixture_measure(fixture, "reference", origin, up, 0.05);
+    nook_fixture_mesh_free(mesh);
+    nook_fixture_occlusion got = ao_fixture_measure(fixture, "reference", origin, up, 0.05);
     if (fabs(got.mean - truth) >= 0.005)
         fail_msg("A = %.5f, truth %.5f", got.mean, truth);
 }
 
-static void add_floor(fixture_mesh *mesh)
+static void add_floor(nook_fixture_mesh *mesh)
 {
-    fixture_quad(mesh, (double[]){ -far_away, -far_away, 0 }, (double[]){ 2 * far_away, 0, 0 },
-                 (double[]){ 0, 2 * far_away, 0 });
+    nook_fixture_add_quad(mesh, (double[]){ -far_away, -far_away, 0 }, (double[]){ 2 * far_away, 0, 0 },
+                          (double[]){ 0, 2 * far_away, 0 });
 }
 
-static void add_wall(fixture_mesh *mesh, double x, double height)
+static void add_wall(nook_fixture_mesh *mesh, double x, double height)
 {
-    fixture_quad(mesh, (double[]){ x, -far_away, 0 }, (double[]){ 0, 2 * far_away, 0 }, (double[]){ 0, 0, height });
+    nook_fixture_add_quad(mesh, (double[]){ x, -far_away, 0 }, (double[]){ 0, 2 * far_away, 0 },
+                          (double[]){ 0, 0, height });
 }
 
 static void test_reference_sees_nothing_above_an_open_plane(void **state)
 {
     ao_fixture *fixture = prepare(state, "hard", "1e6");
-    fixture_mesh mesh = { 0 };
+    nook_fixture_mesh mesh = { 0 };
     add_floor(&mesh);
     ao_fixture_add(fixture, &mesh, 0);
-    fixture_mesh_free(&mesh);
+    nook_fixture_mesh_free(&mesh);
     assert_true(ao_fixture_measure(fixture, "reference", origin, up, 0.05).highest == 0.0);
     assert_true(ao_fixture_measure(fixture, "reference", origin, up, 50.0).highest == 0.0);
 }
@@ -58,10 +59,10 @@ static void test_reference_sees_nothing_above_an_open_plane(void **state)
 static void test_reference_is_exactly_one_in_a_closed_box(void **state)
 {
     ao_fixture *fixture = prepare(state, "hard", "100");
-    fixture_mesh mesh = { 0 };
-    fixture_box(&mesh, (double[]){ -1, -0.7, 0 }, (double[]){ 0.4, 1, 2 }, 63);
+    nook_fixture_mesh mesh = { 0 };
+    nook_fixture_add_box(&mesh, (double[]){ -1, -0.7, 0 }, (double[]){ 0.4, 1, 2 }, 63);
     ao_fixture_add(fixture, &mesh, 0);
-    fixture_mesh_free(&mesh);
+    nook_fixture_mesh_free(&mesh);
     assert_true(ao_fixture_measure(fixture, "reference", origin, up, 0.05).lowest == 1.0);
 }
 
@@ -73,9 +74,9 @@ static void test_reference_matches_the_inside_of_a_sphere(void **state)
     } cases[] = { { "hard", "1.5", 0.5625 }, { "linear", "1.5", 0.1875 }, { "linear", "4", 1 - 2.0 / (3 * 2.0) } };
     for (size_t i = 0; i < NOOK_COUNT(cases); i++) {
         ao_fixture *fixture = prepare(state, cases[i].falloff, cases[i].r_max);
-        fixture_mesh mesh = { 0 };
+        nook_fixture_mesh mesh = { 0 };
         /* A hair inside: the receiver's plane would cut through the facets around the pole. */
-        fixture_sphere(&mesh, (double[]){ 0, 0, 1 - 1e-4 }, 1.0, ROUND);
+        nook_fixture_add_sphere(&mesh, (double[]){ 0, 0, 1 - 1e-4 }, 1.0, ROUND);
         expect(fixture, &mesh, cases[i].truth);
     }
 }
@@ -99,8 +100,8 @@ static void test_reference_matches_an_infinite_ceiling_under_every_falloff(void 
                   { "exponential", exponential } };
     for (size_t i = 0; i < NOOK_COUNT(cases); i++) {
         ao_fixture *fixture = prepare(state, cases[i].falloff, "2.5");
-        fixture_mesh mesh = { 0 };
-        fixture_quad(&mesh, (double[]){ -50, -50, 1 }, (double[]){ 100, 0, 0 }, (double[]){ 0, 100, 0 });
+        nook_fixture_mesh mesh = { 0 };
+        nook_fixture_add_quad(&mesh, (double[]){ -50, -50, 1 }, (double[]){ 100, 0, 0 }, (double[]){ 0, 100, 0 });
         expect(fixture, &mesh, cases[i].truth);
     }
 }
@@ -109,12 +110,12 @@ static void test_reference_matches_a_corner_at_any_distance_and_falloff(void **s
 {
     for (double x = 0.01; x < 10.0; x *= 10.0) {
         ao_fixture *fixture = prepare(state, "hard", "1e6");
-        fixture_mesh mesh = { 0 };
+        nook_fixture_mesh mesh = { 0 };
         add_wall(&mesh, x, far_away);
         expect(fixture, &mesh, 0.5);
     }
     const double k = 0.3, s = sqrt(1 - k * k);
-    fixture_mesh mesh = { 0 };
+    nook_fixture_mesh mesh = { 0 };
     ao_fixture *fixture = prepare(state, "hard", "1");
     add_wall(&mesh, k, 5);
     expect(fixture, &mesh, (acos(k) - k * s) / pi);
@@ -126,7 +127,7 @@ static void test_reference_matches_a_corner_at_any_distance_and_falloff(void **s
 static void test_reference_matches_a_wall_of_finite_height(void **state)
 {
     ao_fixture *fixture = prepare(state, "hard", "1e6");
-    fixture_mesh mesh = { 0 };
+    nook_fixture_mesh mesh = { 0 };
     add_wall(&mesh, 1.0, 1.5);
     expect(fixture, &mesh, 0.5 * (1 - 1 / sqrt(1 + 1.5 * 1.5)));
 }
@@ -136,9 +137,9 @@ static void test_reference_matches_dihedral_corners(void **state)
     for (double degrees = 60; degrees <= 120; degrees += 30) {
         ao_fixture *fixture = prepare(state, "hard", "1e6");
         double angle = degrees * pi / 180;
-        fixture_mesh mesh = { 0 };
-        fixture_quad(&mesh, (double[]){ 1, -far_away, 0 }, (double[]){ 0, 2 * far_away, 0 },
-                     (double[]){ -far_away * cos(angle), 0, far_away * sin(angle) });
+        nook_fixture_mesh mesh = { 0 };
+        nook_fixture_add_quad(&mesh, (double[]){ 1, -far_away, 0 }, (double[]){ 0, 2 * far_away, 0 },
+                              (double[]){ -far_away * cos(angle), 0, far_away * sin(angle) });
         expect(fixture, &mesh, cos(angle / 2) * cos(angle / 2));
     }
 }
@@ -146,16 +147,16 @@ static void test_reference_matches_dihedral_corners(void **state)
 static void test_reference_matches_an_overhang(void **state)
 {
     ao_fixture *fixture = prepare(state, "hard", "1e6");
-    fixture_mesh mesh = { 0 };
-    fixture_quad(&mesh, (double[]){ 0.7, -far_away, 1 }, (double[]){ far_away, 0, 0 },
-                 (double[]){ 0, 2 * far_away, 0 });
+    nook_fixture_mesh mesh = { 0 };
+    nook_fixture_add_quad(&mesh, (double[]){ 0.7, -far_away, 1 }, (double[]){ far_away, 0, 0 },
+                          (double[]){ 0, 2 * far_away, 0 });
     expect(fixture, &mesh, 0.5 * (1 - 0.7 / sqrt(0.7 * 0.7 + 1)));
 }
 
 static void test_reference_matches_the_bottom_of_a_trench(void **state)
 {
     ao_fixture *fixture = prepare(state, "hard", "1e6");
-    fixture_mesh mesh = { 0 };
+    nook_fixture_mesh mesh = { 0 };
     add_wall(&mesh, -0.6, 1.0);
     add_wall(&mesh, 0.6, 1.0);
     expect(fixture, &mesh, 1 - 0.6 / sqrt(0.36 + 1));
@@ -164,16 +165,16 @@ static void test_reference_matches_the_bottom_of_a_trench(void **state)
 static void test_reference_matches_the_bottom_of_a_round_pit(void **state)
 {
     ao_fixture *fixture = prepare(state, "hard", "1e6");
-    fixture_mesh mesh = { 0 };
-    fixture_tube(&mesh, 1.0, 0.0, 1.0, ROUND);
+    nook_fixture_mesh mesh = { 0 };
+    nook_fixture_add_tube(&mesh, 1.0, 0.0, 1.0, ROUND);
     expect(fixture, &mesh, 0.5);
 }
 
 static void test_reference_matches_a_disc_overhead(void **state)
 {
     ao_fixture *fixture = prepare(state, "hard", "1e6");
-    fixture_mesh mesh = { 0 };
-    fixture_disc(&mesh, (double[]){ 0, 0, 1 }, 0.8, ROUND);
+    nook_fixture_mesh mesh = { 0 };
+    nook_fixture_add_disc(&mesh, (double[]){ 0, 0, 1 }, 0.8, ROUND);
     expect(fixture, &mesh, 0.64 / 1.64);
 }
 
@@ -197,8 +198,8 @@ static void test_reference_matches_spheres_above_and_across_the_horizon(void **s
                   { { 1.5, 0, -0.3 }, sphere_crossing_horizon(sqrt(2.34), -0.3 / sqrt(2.34)) } };
     for (size_t i = 0; i < NOOK_COUNT(cases); i++) {
         ao_fixture *fixture = prepare(state, "hard", "1e6");
-        fixture_mesh mesh = { 0 };
-        fixture_sphere(&mesh, cases[i].centre, 1.0, ROUND);
+        nook_fixture_mesh mesh = { 0 };
+        nook_fixture_add_sphere(&mesh, cases[i].centre, 1.0, ROUND);
         expect(fixture, &mesh, cases[i].truth);
     }
 }
@@ -209,12 +210,12 @@ static void test_reference_matches_parallel_and_perpendicular_rectangles(void **
     double parallel =
         (x / sqrt(1 + x * x) * atan(y / sqrt(1 + x * x)) + y / sqrt(1 + y * y) * atan(x / sqrt(1 + y * y))) / (2 * pi);
     double perpendicular = (atan(b / c) - c / sqrt(a * a + c * c) * atan(b / sqrt(a * a + c * c))) / (2 * pi);
-    fixture_mesh mesh = { 0 };
+    nook_fixture_mesh mesh = { 0 };
     ao_fixture *fixture = prepare(state, "hard", "1e6");
-    fixture_quad(&mesh, (double[]){ 0, 0, c }, (double[]){ a, 0, 0 }, (double[]){ 0, b, 0 });
+    nook_fixture_add_quad(&mesh, (double[]){ 0, 0, c }, (double[]){ a, 0, 0 }, (double[]){ 0, b, 0 });
     expect(fixture, &mesh, parallel);
     fixture = prepare(state, "hard", "1e6");
-    fixture_quad(&mesh, (double[]){ c, 0, 0 }, (double[]){ 0, b, 0 }, (double[]){ 0, 0, a });
+    nook_fixture_add_quad(&mesh, (double[]){ c, 0, 0 }, (double[]){ 0, b, 0 }, (double[]){ 0, 0, a });
     expect(fixture, &mesh, perpendicular);
 }
 
@@ -225,8 +226,8 @@ static void test_reference_takes_the_union_of_objects(void **state)
     double sum = 0.0;
     for (int face = 0; face < 6; face++) {
         ao_fixture_clear(fixture);
-        fixture_mesh mesh = { 0 };
-        fixture_box(&mesh, low, high, 1u << face);
+        nook_fixture_mesh mesh = { 0 };
+        nook_fixture_add_box(&mesh, low, high, 1u << face);
         expect(fixture, &mesh, face == 5 ? 0.23946 : face == 4 ? 0.0 : 0.19014);
         sum += ao_fixture_measure(fixture, "reference", origin, up, 0.05).mean;
     }
@@ -236,10 +237,10 @@ static void test_reference_takes_the_union_of_objects(void **state)
 static void test_reference_follows_transforms_of_an_instance(void **state)
 {
     ao_fixture *fixture = prepare(state, "hard", "1e6");
-    fixture_mesh mesh = { 0 };
-    fixture_disc(&mesh, (double[]){ 0, 0, 0 }, 1.0, ROUND);
+    nook_fixture_mesh mesh = { 0 };
+    nook_fixture_add_disc(&mesh, (double[]){ 0, 0, 0 }, 1.0, ROUND);
     ao_fixture_add(fixture, &mesh, 0);
-    fixture_mesh_free(&mesh);
+    nook_fixture_mesh_free(&mesh);
     /* Scaled to radius 0.8, mirrored in z, lifted to height 1, the whole world 3000 km away. */
     const double m[16] = { 0.8, 0, 0, 0, 0, 0.8, 0, 0, 0, 0, -2, 0, 3e6, -3e6, 1 + 1e6, 1 }, at[3] = { 3e6, -3e6, 1e6 };
     memcpy(fixture->view->occluders[0].world_from_mesh, m, sizeof m);

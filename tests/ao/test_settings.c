@@ -29,7 +29,7 @@ static int teardown(void **state)
 
 static nook_ao *context(void **state)
 {
-    return ((ao_view *)*state)->ao;
+    return ((nook_fixture_view *)*state)->ao;
 }
 
 /** Runs a call that must fail with `code`, log one line and say `message` in it. */
@@ -168,8 +168,8 @@ static void test_settings_all_go_back_to_their_initial_values(void **state)
 
 static void test_settings_tables_list_every_parameter_with_its_initial_value(void **state)
 {
-    ao_view *view = *state;
-    nook_ao_desc desc = { .version = NOOK_AO_VERSION, .gpu = view->gpu.gpu, .width = 4, .height = 4 };
+    nook_fixture_view *view = *state;
+    nook_ao_desc desc = { .version = NOOK_AO_VERSION, .gpu = view->gpu, .width = 4, .height = 4 };
     nook_ao *fresh;
     assert_int_equal(nook_ao_create(&desc, &fresh), NOOK_OK);
     size_t count;
@@ -188,9 +188,9 @@ static void test_settings_tables_list_every_parameter_with_its_initial_value(voi
 
 static void test_context_refuses_another_version_no_device_and_no_pixels(void **state)
 {
-    ao_view *view = *state;
+    nook_fixture_view *view = *state;
     nook_ao *ao = view->ao;
-    nook_ao_desc good = { .version = NOOK_AO_VERSION, .gpu = view->gpu.gpu, .width = 4, .height = 4 }, desc = good;
+    nook_ao_desc good = { .version = NOOK_AO_VERSION, .gpu = view->gpu, .width = 4, .height = 4 }, desc = good;
     desc.version = NOOK_AO_VERSION + 1;
     EXPECT_REFUSED(nook_ao_create(&desc, &ao), NOOK_E_VERSION, "version");
     assert_null(ao);
@@ -237,11 +237,9 @@ static void test_context_refuses_techniques_of_another_version_or_name(void **st
 
 static void test_context_refuses_too_many_occluders_and_keeps_the_list(void **state)
 {
-    ao_view *view = *state;
+    nook_fixture_view *view = *state;
     nook_ao *ao;
-    nook_ao_desc desc = {
-        .version = NOOK_AO_VERSION, .gpu = view->gpu.gpu, .width = 4, .height = 4, .max_occluders = 2
-    };
+    nook_ao_desc desc = { .version = NOOK_AO_VERSION, .gpu = view->gpu, .width = 4, .height = 4, .max_occluders = 2 };
     nook_ao_occluder occluders[3] = { { .volume = { 0 } } };
     assert_int_equal(nook_ao_create(&desc, &ao), NOOK_OK);
     assert_int_equal(nook_ao_submit_occluders(ao, occluders, 2), NOOK_OK);
@@ -250,22 +248,22 @@ static void test_context_refuses_too_many_occluders_and_keeps_the_list(void **st
     nook_ao_destroy(ao);
 }
 
-static void add_box(ao_view *view)
+static void add_box(nook_fixture_view *view)
 {
-    fixture_mesh mesh = { 0 };
-    fixture_box(&mesh, (double[]){ -1, -1, -1 }, (double[]){ 1, 1, 1 }, 63);
+    nook_fixture_mesh mesh = { 0 };
+    nook_fixture_add_box(&mesh, (double[]){ -1, -1, -1 }, (double[]){ 1, 1, 1 }, 63);
     ao_view_add(view, &mesh, 4);
-    fixture_mesh_free(&mesh);
+    nook_fixture_mesh_free(&mesh);
 }
 
 static void test_context_refuses_ids_that_were_removed(void **state)
 {
-    ao_view *view = *state;
+    nook_fixture_view *view = *state;
     add_box(view);
     nook_ao_occluder stale = view->occluders[0], other = stale;
     assert_int_equal(nook_ao_submit_occluders(view->ao, &stale, 1), NOOK_OK);
-    ao_view_drop_occluders(view);
-    ao_view_drop_occluders(view); /* removing twice does no harm */
+    nook_fixture_view_drop_occluders(view);
+    nook_fixture_view_drop_occluders(view); /* removing twice does no harm */
     stale.mesh.id = 0;
     EXPECT_REFUSED(nook_ao_submit_occluders(view->ao, &stale, 1), NOOK_E_ARG, "removed");
     other.volume.id = 0;
@@ -273,25 +271,25 @@ static void test_context_refuses_ids_that_were_removed(void **state)
     add_box(view); /* ids never come back */
     assert_true(view->occluders[0].volume.id != stale.volume.id && view->occluders[0].mesh.id != other.mesh.id);
     EXPECT_REFUSED(nook_ao_submit_occluders(view->ao, &stale, 1), NOOK_E_ARG, "removed");
-    ao_view_drop_occluders(view);
+    nook_fixture_view_drop_occluders(view);
 }
 
 static void test_record_leaves_out_what_was_removed_after_submitting(void **state)
 {
-    ao_view *view = *state;
+    nook_fixture_view *view = *state;
     nook_ao_statistics statistics;
     add_box(view);
     ao_view_record(view, "volume");
     nook_ao_get_statistics(view->ao, &statistics);
     assert_int_equal(statistics.occluders, 1);
     assert_true(statistics.volume_bytes >= 6 * 6 * 6);
-    ao_view_drop_occluders(view);
+    nook_fixture_view_drop_occluders(view);
     ao_view_record(view, "volume");
     nook_ao_get_statistics(view->ao, &statistics);
     assert_int_equal(statistics.occluders, 0);
 }
 
-static nook_ao_frame good_frame(const ao_view *view)
+static nook_ao_frame good_frame(const nook_fixture_view *view)
 {
     nook_ao_frame frame = { .depth = { view->depth.id, SIZE, SIZE }, .normal = { view->normal.id, SIZE, SIZE } };
     memcpy(frame.view_from_world, view->view_from_world.m, sizeof frame.view_from_world);
@@ -301,7 +299,7 @@ static nook_ao_frame good_frame(const ao_view *view)
 
 static void test_record_refuses_textures_of_another_size(void **state)
 {
-    ao_view *view = *state;
+    nook_fixture_view *view = *state;
     nook_ao_frame frame = good_frame(view);
     frame.depth.width = SIZE - 1;
     EXPECT_REFUSED(nook_ao_record(view->ao, &frame), NOOK_E_ARG, "depth is 15x16");
@@ -313,7 +311,7 @@ static void test_record_refuses_textures_of_another_size(void **state)
 
 static void test_record_refuses_matrices_that_are_no_camera(void **state)
 {
-    ao_view *view = *state;
+    nook_fixture_view *view = *state;
     nook_ao_frame frame = good_frame(view);
     static const struct {
         int element;
@@ -336,7 +334,7 @@ static void test_record_refuses_matrices_that_are_no_camera(void **state)
 
 static void test_record_tells_an_error_of_gl_and_only_its_own(void **state)
 {
-    ao_view *view = *state;
+    nook_fixture_view *view = *state;
     nook_ao_frame frame = good_frame(view);
     nook_log_capture lines;
     frame.depth.native = 0x7fffffff; /* no texture */
@@ -347,11 +345,11 @@ static void test_record_tells_an_error_of_gl_and_only_its_own(void **state)
     assert_true(lines.count >= 1);
     frame = good_frame(view);
     nook_log_capture_begin(&lines);
-    view->gpu.gpu->gl->Enable(0xffff); /* the host's error */
+    view->gpu->gl->Enable(0xffff); /* the host's error */
     result = nook_ao_record(view->ao, &frame);
     nook_log_capture_end();
     assert_int_equal(result, NOOK_OK);
-    assert_int_equal(view->gpu.gpu->gl->GetError(), GL_NO_ERROR);
+    assert_int_equal(view->gpu->gl->GetError(), GL_NO_ERROR);
 }
 
 static void test_visibility_keeps_its_name_when_only_settings_change(void **state)
@@ -360,7 +358,7 @@ static void test_visibility_keeps_its_name_when_only_settings_change(void **stat
                                                { "ao.scale", "half", "hsao" },
                                                { "ao.filter", "none", "ssao" },
                                                { "ao.scale", "full", "reference" } };
-    ao_view *view = *state;
+    nook_fixture_view *view = *state;
     ao_view_record(view, "volume");
     uint32_t name = nook_ao_visibility(view->ao).native;
     assert_int_not_equal(name, 0);
@@ -374,8 +372,8 @@ static void test_visibility_keeps_its_name_when_only_settings_change(void **stat
 
 static void test_record_refuses_a_context_without_techniques(void **state)
 {
-    ao_view *view = *state;
-    nook_ao_desc desc = { .version = NOOK_AO_VERSION, .gpu = view->gpu.gpu, .width = SIZE, .height = SIZE };
+    nook_fixture_view *view = *state;
+    nook_ao_desc desc = { .version = NOOK_AO_VERSION, .gpu = view->gpu, .width = SIZE, .height = SIZE };
     nook_ao *bare;
     nook_ao_frame frame = good_frame(view);
     assert_int_equal(nook_ao_create(&desc, &bare), NOOK_OK);
@@ -386,7 +384,7 @@ static void test_record_refuses_a_context_without_techniques(void **state)
 
 static void test_context_refuses_damaged_volumes(void **state)
 {
-    ao_view *view = *state;
+    nook_fixture_view *view = *state;
     nook_volume volume = { .info = { .width = 4, .height = 3, .depth = 2, .voxel_size = 0.5 } };
     volume.voxels = calloc(24, 1);
     assert_non_null(volume.voxels);

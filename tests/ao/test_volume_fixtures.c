@@ -39,15 +39,15 @@ static double add_tilted_floor(ao_fixture *fixture, const double at[3], const do
         edge_t[axis] = 2 * size * t[axis];
         edge_b[axis] = 2 * size * b[axis];
     }
-    fixture_mesh mesh = { 0 };
-    fixture_quad(&mesh, corner, edge_t, edge_b);
+    nook_fixture_mesh mesh = { 0 };
+    nook_fixture_add_quad(&mesh, corner, edge_t, edge_b);
     /* Two specks fix the box to 3 units from -anchor; the grid's voxels are 3 / 48 wide. */
     for (int side = 0; side < 2; side++) {
         double p = side ? 3.0 - anchor : -anchor;
-        fixture_triangle(&mesh, (double[]){ p, p, p }, (double[]){ p, p, p }, (double[]){ p, p, p });
+        nook_fixture_add_triangle(&mesh, (double[]){ p, p, p }, (double[]){ p, p, p }, (double[]){ p, p, p });
     }
     double voxel = ao_fixture_add(fixture, &mesh, 48);
-    fixture_mesh_free(&mesh);
+    nook_fixture_mesh_free(&mesh);
     return voxel;
 }
 
@@ -75,7 +75,7 @@ static void check_floor_sweep(void **state, const char *guard, const char *stepp
             ao_fixture_clear(fixture);
             double voxel = add_tilted_floor(fixture, origin, n, phase / 64.0);
             assert_true(fabs(voxel - 3.0 / 48) < 1e-6);
-            fixture_result got = ao_fixture_measure(fixture, "volume", origin, n, 0.5);
+            nook_fixture_occlusion got = ao_fixture_measure(fixture, "volume", origin, n, 0.5);
             if (got.highest >= 1.0 / 255)
                 fail_msg("normal %d (%.3f %.3f %.3f), phase %d of 64: A up to %.4f", k, n[0], n[1], n[2], phase,
                          got.highest);
@@ -101,11 +101,11 @@ static void test_volume_sees_nothing_above_a_floor_at_other_thresholds(void **st
 
 static double measure_box(ao_fixture *fixture, double side, uint32_t resolution)
 {
-    fixture_mesh mesh = { 0 };
+    nook_fixture_mesh mesh = { 0 };
     double half = 0.5 * side;
-    fixture_box(&mesh, (double[]){ -half, -half, 0 }, (double[]){ half, half, side }, 63);
+    nook_fixture_add_box(&mesh, (double[]){ -half, -half, 0 }, (double[]){ half, half, side }, 63);
     ao_fixture_add(fixture, &mesh, resolution);
-    fixture_mesh_free(&mesh);
+    nook_fixture_mesh_free(&mesh);
     double mean = ao_fixture_measure(fixture, "volume", origin, up, 0.3).mean;
     ao_fixture_clear(fixture);
     return mean;
@@ -122,10 +122,10 @@ static void test_volume_is_closed_in_a_closed_box_within_eight_voxels(void **sta
 
 static void add_wall(ao_fixture *fixture, double x)
 {
-    fixture_mesh mesh = { 0 };
-    fixture_quad(&mesh, (double[]){ x, -40, 0 }, (double[]){ 0, 80, 0 }, (double[]){ 0, 0, 40 });
+    nook_fixture_mesh mesh = { 0 };
+    nook_fixture_add_quad(&mesh, (double[]){ x, -40, 0 }, (double[]){ 0, 80, 0 }, (double[]){ 0, 0, 40 });
     ao_fixture_add(fixture, &mesh, 256);
-    fixture_mesh_free(&mesh);
+    nook_fixture_mesh_free(&mesh);
 }
 
 /** A wall at k r_max, hard falloff: fixture 5. */
@@ -169,10 +169,10 @@ static void test_volume_combines_the_six_faces_of_a_cube_as_predicted(void **sta
     for (int multiply = 0; multiply < 2; multiply++) {
         ao_fixture *fixture = prepare(state, multiply ? "multiply" : "union", "1000");
         for (int face = 0; face < 6; face++) {
-            fixture_mesh mesh = { 0 };
-            fixture_box(&mesh, (double[]){ -32, -32, 0 }, (double[]){ 32, 32, 64 }, 1u << face);
+            nook_fixture_mesh mesh = { 0 };
+            nook_fixture_add_box(&mesh, (double[]){ -32, -32, 0 }, (double[]){ 32, 32, 64 }, 1u << face);
             ao_fixture_add(fixture, &mesh, 128);
-            fixture_mesh_free(&mesh);
+            nook_fixture_mesh_free(&mesh);
         }
         expect(fixture, multiply ? product : 1.0);
     }
@@ -185,10 +185,10 @@ static void test_volume_steps_longer_than_a_shell_lose_what_theory_says(void **s
     ao_fixture *fixture = prepare(state, "union", "80");
     ao_fixture_param(fixture, "volume.stepping", "fixed");
     ao_fixture_param(fixture, "volume.guard", "slab");
-    fixture_mesh mesh = { 0 };
-    fixture_quad(&mesh, (double[]){ -128, -128, height }, (double[]){ 256, 0, 0 }, (double[]){ 0, 256, 0 });
+    nook_fixture_mesh mesh = { 0 };
+    nook_fixture_add_quad(&mesh, (double[]){ -128, -128, height }, (double[]){ 256, 0, 0 }, (double[]){ 0, 256, 0 });
     double size = ao_fixture_add(fixture, &mesh, 256);
-    fixture_mesh_free(&mesh);
+    nook_fixture_mesh_free(&mesh);
     assert_true(fabs(size - voxel) < 1e-6);
     for (int steps = 20; steps <= 40; steps += 20) {
         char text[16];
@@ -210,10 +210,10 @@ static void test_volume_reports_unbiased_distances(void **state)
     /* Linear falloff turns a wrong distance into a wrong A: a ceiling at 0.4 r_max gives (1 - 0.4)^2. */
     ao_fixture *fixture = prepare(state, "union", "50");
     ao_fixture_param(fixture, "ao.falloff", "linear");
-    fixture_mesh mesh = { 0 };
-    fixture_quad(&mesh, (double[]){ -128, -128, 20 }, (double[]){ 256, 0, 0 }, (double[]){ 0, 256, 0 });
+    nook_fixture_mesh mesh = { 0 };
+    nook_fixture_add_quad(&mesh, (double[]){ -128, -128, 20 }, (double[]){ 256, 0, 0 }, (double[]){ 0, 256, 0 });
     ao_fixture_add(fixture, &mesh, 256);
-    fixture_mesh_free(&mesh);
+    nook_fixture_mesh_free(&mesh);
     double got = ao_fixture_measure(fixture, "volume", origin, up, 0.3).mean;
     if (fabs(got - 0.36) >= 0.01)
         fail_msg("A = %.4f, truth 0.3600", got);
@@ -226,11 +226,11 @@ static void test_volume_means_the_same_with_more_rays_than_one_dispatch_holds(vo
         ao_fixture *fixture = prepare(state, combines[k], "1");
         ao_fixture_param(fixture, "volume.stepping", "fixed");
         ao_fixture_param(fixture, "volume.steps", "256");
-        fixture_mesh mesh = { 0 };
-        fixture_box(&mesh, (double[]){ -1, -1, 0 }, (double[]){ 0.3, 1, 1 }, 63); /* rays cross its inside */
+        nook_fixture_mesh mesh = { 0 };
+        nook_fixture_add_box(&mesh, (double[]){ -1, -1, 0 }, (double[]){ 0.3, 1, 1 }, 63); /* rays cross its inside */
         ao_fixture_add(fixture, &mesh, 48);
         ao_fixture_add(fixture, &mesh, 48);
-        fixture_mesh_free(&mesh);
+        nook_fixture_mesh_free(&mesh);
         double means[2];
         for (size_t i = 0; i < 2; i++) {
             ao_fixture_param(fixture, "volume.rays", rays[i]);
@@ -255,12 +255,12 @@ static double counted_fetches(ao_fixture *fixture)
 static void test_volume_pays_only_for_occluders_within_reach(void **state)
 {
     ao_fixture *fixture = prepare(state, "union", "1");
-    fixture_mesh mesh = { 0 };
-    fixture_box(&mesh, (double[]){ 0.5, -0.5, 0 }, (double[]){ 1.5, 0.5, 1 }, 63);
+    nook_fixture_mesh mesh = { 0 };
+    nook_fixture_add_box(&mesh, (double[]){ 0.5, -0.5, 0 }, (double[]){ 1.5, 0.5, 1 }, 63);
     ao_fixture_add(fixture, &mesh, 32);
     double alone = counted_fetches(fixture);
     assert_true(alone > 1.0);
-    ao_view *view = fixture->view;
+    nook_fixture_view *view = fixture->view;
     for (int i = 1; i < 64; i++) { /* the same box, 4 m and farther away all around */
         nook_ao_occluder *occluder = &view->occluders[view->occluder_count++];
         *occluder = view->occluders[0];
@@ -268,7 +268,7 @@ static void test_volume_pays_only_for_occluders_within_reach(void **state)
         occluder->world_from_mesh[13] = 4.0 * (i / 8.0);
     }
     assert_true(counted_fetches(fixture) == alone);
-    fixture_mesh_free(&mesh);
+    nook_fixture_mesh_free(&mesh);
 }
 
 int main(void)

@@ -41,33 +41,33 @@ static void set_matrix(nook_ao_occluder *occluder, const nook_matrix *matrix)
 enum { SIDE = 24 };
 
 /** A floor, a box on it and an open wall beside, seen from above the corner; drawn and added as two occluders. */
-static void draw_corner(ao_view *view)
+static void draw_corner(nook_fixture_view *view)
 {
-    fixture_mesh floor = { 0 }, box = { 0 }, all = { 0 };
-    fixture_mesh *const parts[] = { &floor, &box };
-    fixture_quad(&floor, (double[]){ -2, -2, 0 }, (double[]){ 4, 0, 0 }, (double[]){ 0, 4, 0 });
-    fixture_quad(&floor, (double[]){ -2, 1.1, 0 }, (double[]){ 4, 0, 0 }, (double[]){ 0, 0, 1.5 });
-    fixture_box(&box, (double[]){ -0.5, -0.4, 0 }, (double[]){ 0.5, 0.5, 0.8 }, 63);
+    nook_fixture_mesh floor = { 0 }, box = { 0 }, all = { 0 };
+    nook_fixture_mesh *const parts[] = { &floor, &box };
+    nook_fixture_add_quad(&floor, (double[]){ -2, -2, 0 }, (double[]){ 4, 0, 0 }, (double[]){ 0, 4, 0 });
+    nook_fixture_add_quad(&floor, (double[]){ -2, 1.1, 0 }, (double[]){ 4, 0, 0 }, (double[]){ 0, 0, 1.5 });
+    nook_fixture_add_box(&box, (double[]){ -0.5, -0.4, 0 }, (double[]){ 0.5, 0.5, 0.8 }, 63);
     for (size_t k = 0; k < 2; k++) {
         ao_view_add(view, parts[k], 48);
         for (uint32_t i = 0; i < parts[k]->index_count; i += 3) {
             double corner[3][3];
             for (uint32_t c = 0; c < 9; c++)
                 corner[c / 3][c % 3] = parts[k]->positions[parts[k]->indices[i + c / 3] * 3 + c % 3];
-            fixture_triangle(&all, corner[0], corner[1], corner[2]);
+            nook_fixture_add_triangle(&all, corner[0], corner[1], corner[2]);
         }
-        fixture_mesh_free(parts[k]);
+        nook_fixture_mesh_free(parts[k]);
     }
     const double eye[3] = { 1.6, -1.9, 1.8 }, target[3] = { 0, 0.3, 0.2 }, z[3] = { 0, 0, 1 };
     view->view_from_world = nook_matrix_look_at(eye, target, z);
     view->clip_from_view = nook_matrix_perspective_reversed(0.8, 1.0, 0.1);
-    ao_view_clear(view);
+    nook_fixture_view_clear(view);
     ao_view_draw(view, &all);
-    fixture_mesh_free(&all);
+    nook_fixture_mesh_free(&all);
 }
 
 /** Moves occluders, camera and normals by a rigid (or mirrored) matrix; the picture must stay the same. */
-static void move_world(ao_view *view, const nook_matrix *move)
+static void move_world(nook_fixture_view *view, const nook_matrix *move)
 {
     nook_matrix back;
     assert_true(nook_matrix_inverse_affine(move, &back));
@@ -80,9 +80,9 @@ static void move_world(ao_view *view, const nook_matrix *move)
     }
     for (uint32_t i = 0; i < SIDE * SIDE; i++) {
         double n[3];
-        ao_decode_normal(view->normals[i], n);
+        nook_fixture_decode_normal(view->normals[i], n);
         nook_matrix_apply_vector(move, n, n);
-        ao_encode_normal(n, view->normals[i]);
+        nook_fixture_encode_normal(n, view->normals[i]);
     }
 }
 
@@ -93,7 +93,7 @@ static void test_volume_is_the_same_wherever_world_and_camera_are_moved(void **s
     const nook_matrix moves[] = { nook_matrix_compose(far_off, still, one), nook_matrix_compose(none, turn, one),
                                   nook_matrix_compose(none, turn, mirrored),
                                   nook_matrix_compose(far_off, turn, mirrored) };
-    ao_view *view = prepare(state, "1")->view;
+    nook_fixture_view *view = prepare(state, "1")->view;
     ao_view_resize(view, SIDE, SIDE);
     ao_view_param(view, "volume.rays", "16");
     for (size_t k = 0; k < NOOK_COUNT(moves); k++) {
@@ -108,7 +108,7 @@ static void test_volume_is_the_same_wherever_world_and_camera_are_moved(void **s
             mean += (1.0 - before[i]) / (SIDE * SIDE);
             worst = fmax(worst, fabs((double)view->visibility[i] - before[i]));
         }
-        ao_view_drop_occluders(view);
+        nook_fixture_view_drop_occluders(view);
         assert_true(mean > 0.03); /* there is something to compare */
         /* Octahedral codes of the turned normals differ by up to 3e-5: a ray that just met a voxel may miss it. One ray of
            16 at the most; and on the whole nothing. */
@@ -154,10 +154,10 @@ static void test_volume_follows_scaled_sheared_and_mirrored_occluders(void **sta
     };
     ao_fixture *fixture = prepare(state, "2.5");
     see_thin_layers(fixture);
-    fixture_mesh mesh = { 0 };
-    fixture_sphere(&mesh, origin, 0.6, 64);
+    nook_fixture_mesh mesh = { 0 };
+    nook_fixture_add_sphere(&mesh, origin, 0.6, 64);
     ao_fixture_add(fixture, &mesh, 96);
-    fixture_mesh_free(&mesh);
+    nook_fixture_mesh_free(&mesh);
     for (size_t i = 0; i < NOOK_COUNT(cases); i++) {
         memcpy(fixture->view->occluders[0].world_from_mesh, cases[i].m, sizeof cases[i].m);
         expect_like_reference(fixture, cases[i].what);
@@ -180,10 +180,10 @@ static void add_ceiling(ao_fixture *fixture, const double n[3], double height)
         edge_b[axis] = 2.0 * half * b[axis];
     }
     assert_true(fabs(dot(t, b)) < 1e-3 && fabs(dot(t, n)) < 1e-3);
-    fixture_mesh mesh = { 0 };
-    fixture_quad(&mesh, corner, edge_t, edge_b);
+    nook_fixture_mesh mesh = { 0 };
+    nook_fixture_add_quad(&mesh, corner, edge_t, edge_b);
     ao_fixture_add(fixture, &mesh, 128);
-    fixture_mesh_free(&mesh);
+    nook_fixture_mesh_free(&mesh);
     const double m[16] = { t[0], b[0], n[0], 0, t[1], b[1], n[1], 0, t[2], b[2], n[2], 0, 0, 0, height, 1 };
     memcpy(fixture->view->occluders[0].world_from_mesh, m, sizeof m);
 }
@@ -212,11 +212,12 @@ static void test_volume_scaled_by_its_matrix_equals_the_one_baked_scaled(void **
     double means[2];
     for (int baked = 0; baked < 2; baked++) {
         double s = baked ? 2.0 : 1.0;
-        fixture_mesh mesh = { 0 };
-        fixture_box(&mesh, (double[]){ -0.4 * s, -0.3 * s, 0.2 * s }, (double[]){ 0.5 * s, 0.6 * s, 0.7 * s }, 63);
+        nook_fixture_mesh mesh = { 0 };
+        nook_fixture_add_box(&mesh, (double[]){ -0.4 * s, -0.3 * s, 0.2 * s }, (double[]){ 0.5 * s, 0.6 * s, 0.7 * s },
+                             63);
         ao_fixture_clear(fixture);
         ao_fixture_add(fixture, &mesh, 40); /* the same voxels: the grid scales with the mesh */
-        fixture_mesh_free(&mesh);
+        nook_fixture_mesh_free(&mesh);
         nook_matrix scale = nook_matrix_scale(2.0 / s, 2.0 / s, 2.0 / s);
         set_matrix(&fixture->view->occluders[0], &scale);
         means[baked] = measure(fixture, "volume");
@@ -227,10 +228,10 @@ static void test_volume_scaled_by_its_matrix_equals_the_one_baked_scaled(void **
 static void test_volume_and_reference_leave_out_occluders_of_singular_matrices(void **state)
 {
     ao_fixture *fixture = prepare(state, "3");
-    fixture_mesh mesh = { 0 };
-    fixture_box(&mesh, (double[]){ -1, -1, 0.2 }, (double[]){ 1, 1, 1 }, 63);
+    nook_fixture_mesh mesh = { 0 };
+    nook_fixture_add_box(&mesh, (double[]){ -1, -1, 0.2 }, (double[]){ 1, 1, 1 }, 63);
     ao_fixture_add(fixture, &mesh, 16);
-    fixture_mesh_free(&mesh);
+    nook_fixture_mesh_free(&mesh);
     assert_true(measure(fixture, "volume") > 0.3);
     nook_ao_occluder *occluder = &fixture->view->occluders[0];
     for (int k = 0; k < 3; k++) {
@@ -243,10 +244,10 @@ static void test_volume_and_reference_leave_out_occluders_of_singular_matrices(v
 static void test_volume_stays_in_range_for_any_reach(void **state)
 {
     ao_fixture *fixture = prepare(state, "1");
-    fixture_mesh mesh = { 0 };
-    fixture_box(&mesh, (double[]){ -1, -1, 0 }, (double[]){ 1, 1, 2 }, 63);
+    nook_fixture_mesh mesh = { 0 };
+    nook_fixture_add_box(&mesh, (double[]){ -1, -1, 0 }, (double[]){ 1, 1, 2 }, 63);
     double voxel = ao_fixture_add(fixture, &mesh, 32);
-    fixture_mesh_free(&mesh);
+    nook_fixture_mesh_free(&mesh);
     const double reaches[] = { 1e-9, 0.1 * voxel, voxel, 2.0, 200.0, 1e9 };
     double last = 0.0;
     for (size_t i = 0; i < NOOK_COUNT(reaches); i++) {
@@ -276,11 +277,11 @@ static void test_volume_sees_every_one_of_three_hundred_occluders(void **state)
 {
     static const uint32_t counts[] = { 1, 20, 255, 256, 257, 300 };
     ao_fixture *fixture = prepare(state, "2");
-    ao_view *view = fixture->view;
-    fixture_mesh mesh = { 0 };
-    fixture_box(&mesh, (double[]){ -0.07, -0.07, -0.07 }, (double[]){ 0.07, 0.07, 0.07 }, 63);
+    nook_fixture_view *view = fixture->view;
+    nook_fixture_mesh mesh = { 0 };
+    nook_fixture_add_box(&mesh, (double[]){ -0.07, -0.07, -0.07 }, (double[]){ 0.07, 0.07, 0.07 }, 63);
     ao_fixture_add(fixture, &mesh, 12);
-    fixture_mesh_free(&mesh);
+    nook_fixture_mesh_free(&mesh);
     for (uint32_t k = 0; k < 300; k++) {
         nook_matrix matrix = place(k);
         view->occluders[k] = view->occluders[0];
@@ -309,11 +310,11 @@ static void test_volume_sees_every_one_of_three_hundred_occluders(void **state)
 static void test_volume_sees_the_last_of_many_when_only_that_one_is_near(void **state)
 {
     ao_fixture *fixture = prepare(state, "2");
-    ao_view *view = fixture->view;
-    fixture_mesh mesh = { 0 };
-    fixture_box(&mesh, (double[]){ -0.5, -0.5, 0.3 }, (double[]){ 0.5, 0.5, 0.6 }, 63);
+    nook_fixture_view *view = fixture->view;
+    nook_fixture_mesh mesh = { 0 };
+    nook_fixture_add_box(&mesh, (double[]){ -0.5, -0.5, 0.3 }, (double[]){ 0.5, 0.5, 0.6 }, 63);
     ao_fixture_add(fixture, &mesh, 24);
-    fixture_mesh_free(&mesh);
+    nook_fixture_mesh_free(&mesh);
     double alone = measure(fixture, "volume");
     view->occluders[299] = view->occluders[0];
     for (uint32_t k = 0; k < 299; k++) {

@@ -1,5 +1,4 @@
 #include "tests/support/ao_fixture.h"
-#include <math.h>
 #include <stdlib.h>
 
 #include <setjmp.h>
@@ -33,39 +32,23 @@ void ao_fixture_param(ao_fixture *fixture, const char *name, const char *value)
 
 void ao_fixture_clear(ao_fixture *fixture)
 {
-    ao_view_drop_occluders(fixture->view);
+    nook_fixture_view_drop_occluders(fixture->view);
 }
 
-double ao_fixture_add(ao_fixture *fixture, const fixture_mesh *mesh, uint32_t resolution)
+double ao_fixture_add(ao_fixture *fixture, const nook_fixture_mesh *mesh, uint32_t resolution)
 {
     return ao_view_add(fixture->view, mesh, resolution);
 }
 
-static fixture_result summarize(const float *visibility, size_t count)
+nook_fixture_occlusion ao_fixture_measure(ao_fixture *fixture, const char *technique, const double point[3],
+                                          const double normal[3], double distance)
 {
-    fixture_result result = { .lowest = 2.0, .highest = -1.0 };
-    for (size_t i = 0; i < count; i++) {
-        double occlusion = 1.0 - visibility[i];
-        result.mean += occlusion / (double)count;
-        result.lowest = occlusion < result.lowest ? occlusion : result.lowest;
-        result.highest = occlusion > result.highest ? occlusion : result.highest;
-    }
-    return result;
-}
-
-/** The receiver's plane, seen head-on: the same depth and normal in every pixel. */
-fixture_result ao_fixture_measure(ao_fixture *fixture, const char *technique, const double point[3],
-                                  const double normal[3], double distance)
-{
-    ao_view *view = fixture->view;
-    double eye[3], up[3] = { 0, 0, 0 };
-    for (int axis = 0; axis < 3; axis++)
-        eye[axis] = point[axis] + normal[axis] * distance;
-    up[fabs(normal[1]) < 0.9 ? 1 : 0] = 1.0;
-    view->view_from_world = nook_matrix_look_at(eye, point, up);
-    view->clip_from_view = nook_matrix_perspective_reversed(fixture->view_angle, 1.0, 0.1 * distance);
-    for (uint32_t i = 0; i < AO_FIXTURE_SIZE * AO_FIXTURE_SIZE; i++)
-        ao_view_set_pixel(view, i % AO_FIXTURE_SIZE, i / AO_FIXTURE_SIZE, distance, normal);
-    ao_view_record(view, technique);
-    return summarize(view->visibility, AO_FIXTURE_SIZE * AO_FIXTURE_SIZE);
+    nook_fixture_receiver receiver = { .point = { point[0], point[1], point[2] },
+                                       .normal = { normal[0], normal[1], normal[2] },
+                                       .distance = distance,
+                                       .angle = fixture->view_angle };
+    nook_fixture_occlusion occlusion;
+    assert_int_equal(nook_fixture_measure(fixture->view, technique, &receiver, &occlusion), NOOK_OK);
+    assert_int_equal(fixture->view->outside, 0); /* never NaN, never out of range */
+    return occlusion;
 }
