@@ -1,4 +1,5 @@
 #include "game/command.h"
+#include "game/suggestion.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -23,17 +24,11 @@ void nook_command_print_list(const nook_command *table, size_t count)
 
 static int refuse_unknown(const nook_command *table, size_t count, const char *name)
 {
-    const char *nearest = NULL;
-    int best = 3; /* further off than two letters is not a misspelling */
-    for (size_t i = 0; i < count; i++) {
-        int distance = nook_text_distance(table[i].name, name);
-        if (distance < best) {
-            best = distance;
-            nearest = table[i].name;
-        }
-    }
-    if (nearest)
-        fprintf(stderr, "nook: %s: no such command; did you mean %s?\n", name, nearest);
+    nook_suggestion suggestion = nook_suggestion_for(name);
+    for (size_t i = 0; i < count; i++)
+        nook_suggestion_offer(&suggestion, table[i].name);
+    if (suggestion.nearest)
+        fprintf(stderr, "nook: %s: no such command; did you mean %s?\n", name, suggestion.nearest);
     else
         fprintf(stderr, "nook: %s: no such command; nook help lists them\n", name);
     return NOOK_EXIT_USAGE;

@@ -1,5 +1,6 @@
 #include "game/option.h"
 #include "game/option_text.h"
+#include "game/suggestion.h"
 #include <assert.h>
 #include <stdarg.h>
 #include <string.h>
@@ -32,17 +33,11 @@ static nook_parse refuse_unknown(const nook_usage *usage, nook_arguments *out, c
     char name[32] = "";
     if (length < sizeof name)
         memcpy(name, given, length);
-    const char *nearest = NULL;
-    int best = 3; /* further off than two letters is not a misspelling */
-    for (size_t i = 0; i < usage->option_count && *name; i++) {
-        int distance = nook_text_distance(usage->options[i].name, name);
-        if (distance < best) {
-            best = distance;
-            nearest = usage->options[i].name;
-        }
-    }
-    if (nearest)
-        return wrong(usage, out, "--%.*s: no such option; did you mean --%s?", (int)length, given, nearest);
+    nook_suggestion suggestion = nook_suggestion_for(name);
+    for (size_t i = 0; i < usage->option_count && *name; i++)
+        nook_suggestion_offer(&suggestion, usage->options[i].name);
+    if (suggestion.nearest)
+        return wrong(usage, out, "--%.*s: no such option; did you mean --%s?", (int)length, given, suggestion.nearest);
     return wrong(usage, out, "--%.*s: no such option; --help lists them", (int)length, given);
 }
 

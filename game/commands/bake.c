@@ -1,6 +1,7 @@
 #include "engine/core/file.h"
 #include "engine/core/log.h"
 #include "game/commands/commands.h"
+#include "game/settings/settings_file.h"
 #include "game/techniques.h"
 #include "game/volumes.h"
 #include <stdio.h>
@@ -75,16 +76,34 @@ static int bake_file(const char *path, const nook_volumes_desc *desc)
     return NOOK_EXIT_OK;
 }
 
+/* Takes from a settings file what the command line leaves open. */
+static nook_result settle(const char *path, int32_t *resolution, double *r_max)
+{
+    nook_settings_file file;
+    nook_result result = nook_settings_file_read(path, &file);
+    if (result != NOOK_OK)
+        return result;
+    *resolution = *resolution ? *resolution : (int32_t)file.setting.resolution;
+    *r_max = *r_max > 0.0 ? *r_max : file.r_max;
+    return NOOK_OK;
+}
+
 int nook_command_bake(const nook_app *app, int argc, char **argv)
 {
     char default_cache[PATH_CAPACITY];
     const char *cache = nook_path_join(default_cache, sizeof default_cache, app->root, "cache");
-    int32_t resolution = NOOK_VOLUMES_RESOLUTION_DEFAULT, threads = 0;
+    const char *settings = NULL;
+    int32_t resolution = 0, threads = 0;
     double r_max = 0.0;
     const nook_param *shared_r_max = nook_shared_param("r_max");
     bake_help help = { .details = "" };
     describe(&help);
     const nook_option options[] = {
+        { .name = "settings",
+          .kind = NOOK_OPTION_TEXT,
+          .target = &settings,
+          .placeholder = "FILE",
+          .help = "resolution and r_max of a settings file; options given here count more" },
         { .name = "resolution",
           .kind = NOOK_OPTION_INT,
           .target = &resolution,
@@ -124,6 +143,8 @@ int nook_command_bake(const nook_app *app, int argc, char **argv)
     int exit_code;
     if (!nook_arguments_read(&usage, argc, argv, &arguments, &exit_code))
         return exit_code;
+    if (settings && settle(settings, &resolution, &r_max) != NOOK_OK)
+        return NOOK_EXIT_FAILED;
     const nook_volumes_desc desc = { .resolution = (uint32_t)resolution,
                                      .r_max = r_max,
                                      .cache_dir = cache,

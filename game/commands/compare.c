@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Sets "ao.x" and "technique.x" from the command line; what is set in two ways was refused with the options. */
+/* Sets "ao.x" and "technique.x" from the settings file, then from the command line; what is set in two ways was refused with the options. */
 static nook_result set_params(nook_stage *stage, const nook_compare_options *options)
 {
     nook_ao *ao = stage->ao;
@@ -21,7 +21,9 @@ static nook_result set_params(nook_stage *stage, const nook_compare_options *opt
     if (r_max == 0.0)
         return nook_fail(NOOK_E_FORMAT, "%s: what it draws has no size, so there is nothing to compare",
                          stage->scene->path);
-    nook_result result = nook_ao_set_param(ao, "ao.r_max", r_max);
+    nook_result result = options->settings ? nook_setting_apply(ao, &options->file.setting) : NOOK_OK;
+    if (result == NOOK_OK)
+        result = nook_ao_set_param(ao, "ao.r_max", r_max);
     if (result == NOOK_OK && options->falloff)
         result = nook_ao_parse_param(ao, "ao.falloff", options->falloff);
     if (result == NOOK_OK && options->ao_scale)
@@ -125,6 +127,8 @@ int nook_command_compare(const nook_app *app, int argc, char **argv)
     }
     if (nook_compare_options_check(&options, &choice) != NOOK_OK)
         return NOOK_EXIT_USAGE;
+    if (nook_compare_options_settle(&options, &choice) != NOOK_OK)
+        return NOOK_EXIT_FAILED;
     const nook_stage_desc desc = { .root = app->root,
                                    .scene_path = options.scene,
                                    .backend = options.backend,

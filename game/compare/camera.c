@@ -2,6 +2,7 @@
 #include "engine/core/log.h"
 #include "engine/core/vector.h"
 #include "game/compare/auto_camera.h"
+#include "game/suggestion.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -88,12 +89,19 @@ static nook_result refuse_name(const nook_scene *scene, const char *text)
 {
     char names[1024] = "";
     size_t used = 0;
+    nook_suggestion suggestion = nook_suggestion_for(text);
     const nook_scene_camera *camera;
-    for (uint32_t i = 0; (camera = nook_camera_at(scene, i)) && used < sizeof names; i++)
-        used += (size_t)snprintf(names + used, sizeof names - used, "%s'%s'", i ? ", " : "", camera->name);
+    for (uint32_t i = 0; (camera = nook_camera_at(scene, i)); i++) {
+        nook_suggestion_offer(&suggestion, camera->name);
+        if (used < sizeof names)
+            used += (size_t)snprintf(names + used, sizeof names - used, "%s'%s'", i ? ", " : "", camera->name);
+    }
     if (used == 0)
         return nook_fail(NOOK_E_NOT_FOUND, "camera '%s': %s has no cameras; give px,py,pz,tx,ty,tz,fov", text,
                          scene->path);
+    if (suggestion.nearest)
+        return nook_fail(NOOK_E_NOT_FOUND, "camera '%s': did you mean '%s'? Give px,py,pz,tx,ty,tz,fov or one of %s",
+                         text, suggestion.nearest, names);
     return nook_fail(NOOK_E_NOT_FOUND, "camera '%s': give px,py,pz,tx,ty,tz,fov or one of %s", text, names);
 }
 

@@ -1,33 +1,13 @@
 #include "game/compare/choice.h"
 #include "engine/core/log.h"
 #include "game/compare/camera.h"
+#include "game/suggestion.h"
 #include "game/techniques.h"
 #include "modules/ao/nook_ao.h"
 #include <stdio.h>
 #include <string.h>
 
 /* ---- Techniques ------------------------------------------------------------------------------------------------- */
-
-static const nook_ao_technique *find_technique(const char *name, size_t length)
-{
-    size_t count;
-    const nook_ao_technique *const *techniques = nook_techniques(&count);
-    for (size_t i = 0; i < count; i++) {
-        if (strlen(techniques[i]->name) == length && memcmp(techniques[i]->name, name, length) == 0)
-            return techniques[i];
-    }
-    return NULL;
-}
-
-static const char *list_techniques(char *out, size_t capacity)
-{
-    size_t count, used = 0;
-    const nook_ao_technique *const *techniques = nook_techniques(&count);
-    out[0] = '\0';
-    for (size_t i = 0; i < count && used < capacity; i++)
-        used += (size_t)snprintf(out + used, capacity - used, "%s%s", i ? ", " : "", techniques[i]->name);
-    return out;
-}
 
 static void choose(nook_compare_choice *choice, const nook_ao_technique *technique)
 {
@@ -43,7 +23,6 @@ nook_result nook_compare_choose(const char *list, nook_compare_choice *out_choic
 {
     nook_compare_choice choice = { 0 };
     size_t count;
-    char names[256];
     const nook_ao_technique *const *techniques = nook_techniques(&count);
     for (size_t i = 0; i < count; i++) {
         if (techniques[i]->exact)
@@ -53,10 +32,11 @@ nook_result nook_compare_choose(const char *list, nook_compare_choice *out_choic
         choose(&choice, techniques[i]);
     for (const char *at = list; at; at = *at ? at + 1 : NULL) {
         size_t length = strcspn(at, ",");
-        const nook_ao_technique *technique = find_technique(at, length);
+        char name[64];
+        snprintf(name, sizeof name, "%.*s", (int)length, at);
+        const nook_ao_technique *technique = nook_technique_find(name);
         if (!technique)
-            return nook_fail(NOOK_E_NOT_FOUND, "technique '%.*s': choose from %s", (int)length, at,
-                             list_techniques(names, sizeof names));
+            return nook_technique_refuse("--techniques", name);
         choose(&choice, technique);
         at += length;
     }
@@ -73,20 +53,18 @@ typedef struct param_owner {
     size_t count;
 } param_owner;
 
-static nook_result find_owner(const char *name, size_t length, param_owner *out)
+static nook_result find_owner(const char *name, param_owner *out)
 {
-    char names[256];
-    const nook_ao_technique *technique = find_technique(name, length);
+    const nook_ao_technique *technique = nook_technique_find(name);
     param_owner owner = { .name = "ao" };
     if (technique) {
         snprintf(owner.name, sizeof owner.name, "%s", technique->name);
         owner.params = technique->params;
         owner.count = technique->param_count;
-    } else if (length == 2 && memcmp(name, "ao", 2) == 0) {
+    } else if (strcmp(name, owner.name) == 0) {
         owner.params = nook_ao_shared_params(&owner.count);
     } else {
-        return nook_fail(NOOK_E_NOT_FOUND, "parameters of '%.*s': give technique.name=value; the techniques are ao, %s",
-                         (int)length, name, list_techniques(names, sizeof names));
+        return nook_technique_refuse("parameters as technique.name=value, ao for what all share", name);
     }
     *out = owner;
     return NOOK_OK;
@@ -96,8 +74,15 @@ static nook_result refuse_param(const param_owner *owner, const char *name)
 {
     char names[1024] = "";
     size_t used = 0;
-    for (size_t i = 0; i < owner->count && used < sizeof names; i++)
-        used += (size_t)snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "", owner->params[i].name);
+    nook_suggestion suggestion = nook_suggestion_for(name);
+    for (size_t i = 0; i < owner->count; i++) {
+        nook_suggestion_offer(&suggestion, owner->params[i].name);
+        if (used < sizeof names)
+            used += (size_t)snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "", owner->params[i].name);
+    }
+    if (suggestion.nearest)
+        return nook_fail(NOOK_E_NOT_FOUND, "%s.%s: no such parameter; did you mean %s.%s? There are %s", owner->name,
+                         name, owner->name, suggestion.nearest, names);
     return nook_fail(NOOK_E_NOT_FOUND, "%s.%s: no such parameter; there are %s", owner->name, name, names);
 }
 
@@ -105,9 +90,10 @@ nook_result nook_compare_check_param(const char *name, size_t length, const char
 {
     const char *dot = memchr(name, '.', length);
     size_t owner_length = dot ? (size_t)(dot - name) : length;
-    char rest[64] = "";
+    char owner_name[64], rest[64] = "";
     param_owner owner;
-    nook_result result = find_owner(name, owner_length, &owner);
+    snprintf(owner_name, sizeof owner_name, "%.*s", (int)owner_length, name);
+    nook_result result = find_owner(owner_name, &owner);
     if (result != NOOK_OK)
         return result;
     if (dot)
@@ -163,4 +149,21 @@ nook_result nook_compare_options_check(const nook_compare_options *options, nook
     if (result == NOOK_OK && options->camera)
         result = nook_camera_check(options->camera);
     return result == NOOK_OK ? nook_compare_choose(options->techniques, out_choice) : result;
+}
+
+nook_result nook_compare_options_settle(nook_compare_options *options, nook_compare_choice *choice)
+{
+    nook_settings_file *file = &options->file;
+    if (!options->settings)
+        return NOOK_OK;
+    nook_result result = nook_settings_file_read(options->settings, file);
+    if (result != NOOK_OK)
+        return result;
+    if (options->r_max == 0.0)
+        options->r_max = file->r_max;
+    if (!options->falloff && *file->falloff)
+        options->falloff = file->falloff;
+    if (options->resolution == 0)
+        options->resolution = (int32_t)file->setting.resolution;
+    return options->techniques ? NOOK_OK : nook_compare_choose(file->setting.technique->name, choice);
 }

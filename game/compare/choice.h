@@ -24,3 +24,10 @@ nook_result nook_compare_check_param(const char *name, size_t length, const char
 
 /** Checks all of the options that needs neither scene nor device. @return why not; *out_choice is untouched then */
 nook_result nook_compare_options_check(const nook_compare_options *options, nook_compare_choice *out_choice);
+
+/**
+ * Reads the settings file, where one is given, and takes from it what the command line leaves open: technique, resolution, r_max
+ * and falloff. Its other parameters are options->file's.
+ * @return why the file cannot be read; both are untouched then
+ */
+nook_result nook_compare_options_settle(nook_compare_options *options, nook_compare_choice *choice);

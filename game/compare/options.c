@@ -47,6 +47,11 @@ bool nook_compare_options_read(const nook_app *app, int argc, char **argv, nook_
     snprintf(view_expects, sizeof view_expects, "names with commas between, of %s",
              nook_view_list_names(0, view_names, sizeof view_names));
     const nook_option options[] = {
+        { .name = "settings",
+          .kind = NOOK_OPTION_TEXT,
+          .target = &out->settings,
+          .placeholder = "FILE",
+          .help = "a setting, as ./nook tune writes it, beside the reference; options given here count more" },
         { .name = "camera",
           .kind = NOOK_OPTION_TEXT,
           .target = &out->camera,
@@ -76,7 +81,7 @@ bool nook_compare_options_read(const nook_app *app, int argc, char **argv, nook_
           .kind = NOOK_OPTION_TEXT,
           .target = &out->techniques,
           .placeholder = "a,b,c",
-          .help = "which ones; default: all" },
+          .help = "which ones; default: all, or that of --settings" },
         { .name = "ao-scale",
           .kind = NOOK_OPTION_CUSTOM,
           .target = &out->ao_scale,

@@ -2,6 +2,7 @@
 #include "engine/platform/context.h"
 #include "game/command.h"
 #include "game/compare/views.h"
+#include "game/settings/settings_file.h"
 
 enum { NOOK_COMPARE_PATH_MAX = 4096 };
 
@@ -11,6 +12,7 @@ typedef struct nook_compare_options {
     const char *camera; /**< Name or seven numbers; NULL: chosen (game/compare/camera.h). */
     nook_option_size size;
     double r_max;            /**< Metres; 0: a tenth of the diagonal of the scene's box. */
+    const char *settings;    /**< A settings file; NULL: none. What other options say counts more. */
     const char *falloff;     /**< For ao.falloff; NULL: as in modules/ao/params.def. */
     const char *techniques;  /**< "a,b,c"; NULL: all. */
     const char *ao_scale;    /**< For ao.scale, one of its choices; NULL: as in modules/ao/params.def. */
@@ -24,8 +26,9 @@ typedef struct nook_compare_options {
     const char *cache;
     bool no_instability; /**< No second view: about half the work. */
     bool no_window;
-    bool list_params; /**< Do nothing but print them (game/compare/param_list.h). */
-    bool json;        /**< compare.json on standard output instead of the table. */
+    bool list_params;        /**< Do nothing but print them (game/compare/param_list.h). */
+    bool json;               /**< compare.json on standard output instead of the table. */
+    nook_settings_file file; /**< What `settings` holds: nook_compare_options_settle. */
     char default_scene[NOOK_COMPARE_PATH_MAX], default_cache[NOOK_COMPARE_PATH_MAX];
 } nook_compare_options;
 

@@ -10,7 +10,7 @@
 #include "modules/ao/nook_ao.h"
 #include <stdbool.h>
 
-enum { NOOK_SETTING_PARAMS_MAX = 24, NOOK_SETTING_TEXT_MAX = 1024 };
+enum { NOOK_SETTING_PARAMS_MAX = 24, NOOK_SETTING_TEXT_MAX = 1024, NOOK_SETTING_VALUE_MAX = 64 };
 
 typedef struct nook_setting_param {
     const nook_param *param; /**< Of the technique's or the shared table. */
@@ -38,12 +38,19 @@ nook_result nook_setting_parse(const char *where, const char *text, nook_setting
 
 /**
  * Sets one parameter by name ("rays", "ao.scale", "resolution") from text.
- * @return as nook_setting_parse; also NOOK_E_ARG for ao.r_max, ao.falloff, ao.falloff_tau and ao.count
+ * @return as nook_setting_parse; also NOOK_E_ARG for ao.r_max, ao.falloff, ao.falloff_tau and ao.count, and for a resolution
+ *         where no volumes are read
  */
 nook_result nook_setting_assign(const char *where, nook_setting *setting, const char *name, const char *text);
 
 /** Prints the text form. @param out NOOK_SETTING_TEXT_MAX bytes @return out */
 const char *nook_setting_print(const nook_setting *setting, char *out);
+
+/** One value as the text form has it: a choice's name, or the fewest digits that read back as the same number. @return out */
+const char *nook_setting_value(const nook_setting_param *entry, char out[NOOK_SETTING_VALUE_MAX]);
+
+/** The value of a row of the technique's or the shared table: what the setting says, else the initial one. */
+double nook_setting_get(const nook_setting *setting, const nook_param *param);
 
 /**
  * Chooses the technique and puts every parameter of it and every shared one, but r_max and falloff, to what the setting says.
