@@ -1,10 +1,11 @@
 /**
  * extremes.h - the cases at the edge: each says what must hold, why that tolerance, and measures it.
  *
- * A case is a function in one of game/extremes/<subject>.c and a row of that file's table. `./nook extremes` runs all; tests/extremes
- * run them one subject a program.
+ * A case is a function in one of game/extremes/<subject>_cases.c and a row of that file's group, which groups.h names.
+ * `./nook extremes` runs all; tests/extremes run them one group a program, quickly.
  */
 #pragma once
+#include "engine/core/log.h"
 #include "engine/core/result.h"
 #include "engine/gpu/gpu.h"
 #include <stdbool.h>
@@ -16,13 +17,17 @@ typedef struct nook_extremes {
     nook_gpu *gpu;       /**< A device, current. */
     const char *scratch; /**< A folder for files, which the caller removes. */
     bool quick;          /**< Fewer samples of the same cases: for tests, under sanitizers too. */
+    /** Told while a case works: fraction in [0, 1]. NULL: silence. */
+    void (*progress)(void *user, double fraction);
+    void *progress_user;
 } nook_extremes;
 
-/** What a case found. */
+/** What a case found. Starts as zero. */
 typedef struct nook_extreme_found {
     double measured;  /**< The worst that was seen, in the unit that the case names. */
     double bound;     /**< It holds when measured <= bound and nothing below says otherwise. */
     uint64_t outside; /**< Visibilities that were NaN, negative or above one: must be 0, always. */
+    uint64_t checked; /**< Visibilities that were looked at for that. */
     char where[192];  /**< Where the worst was: "scale 1e+06, 3 m off". */
 } nook_extreme_found;
 
@@ -41,8 +46,23 @@ typedef struct nook_extreme_group {
     size_t count;
 } nook_extreme_group;
 
-/** Every group, in the order of the table. */
-const nook_extreme_group *nook_extreme_groups(size_t *out_count);
+/** Every group, in the order of the table. @param out_count  groups */
+const nook_extreme_group *const *nook_extreme_groups(size_t *out_count);
 
 /** measured <= bound (a NaN is not) and nothing outside. */
 bool nook_extreme_holds(const nook_extreme_found *found);
+
+/* ---- For cases ---- */
+
+/**
+ * Keeps `value` as the worst when it is larger than what was measured so far (0 at first) or not a number, and where that was.
+ * @param format  printf-style: "scale %g, technique %s"
+ */
+void nook_extreme_worst(nook_extreme_found *found, double value, const char *format, ...) NOOK_PRINTF(3, 4);
+
+/** Counts visibilities that are NaN, negative or above one. The first names the place, and none after it does. */
+void nook_extreme_check(nook_extreme_found *found, const float *visibility, size_t count, const char *format, ...)
+    NOOK_PRINTF(4, 5);
+
+/** Passes progress on to whoever asked for it. */
+void nook_extreme_progress(const nook_extremes *extremes, double fraction);

@@ -1,0 +1,166 @@
+#include "engine/core/file.h"
+#include "engine/platform/context.h"
+#include "game/commands/commands.h"
+#include "game/extremes/extreme_report.h"
+#include "game/extremes/scratch_folder.h"
+#include "game/progress.h"
+
+typedef struct extremes_options {
+    const char *only, *out;
+    int32_t backend;
+    bool list, json, quick;
+} extremes_options;
+
+/* What the callbacks of a run share. */
+typedef struct extremes_run {
+    const nook_extreme_group *group; /* of the last row printed */
+    nook_progress progress;
+    char what[256];
+    size_t index, count;
+    bool table;
+} extremes_run;
+
+static bool read_backend(void *target, const char *text)
+{
+    return nook_backend_parse(text, target);
+}
+
+static void begin_case(void *user, const nook_extreme_group *group, const nook_extreme *extreme)
+{
+    extremes_run *run = user;
+    snprintf(run->what, sizeof run->what, "[%zu/%zu] %s: %s", ++run->index, run->count, group->name, extreme->name);
+    run->progress = nook_progress_begin(run->what);
+}
+
+static void tell_progress(void *user, double fraction)
+{
+    extremes_run *run = user;
+    nook_progress_update(&run->progress, fraction);
+}
+
+static void end_case(void *user, const nook_extreme_row *row)
+{
+    extremes_run *run = user;
+    nook_progress_end(&run->progress);
+    if (!run->table)
+        return;
+    nook_extreme_print_row(stdout, row, row->group != run->group);
+    fflush(stdout); /* each row as soon as it is known */
+    run->group = row->group;
+}
+
+/* The table is printed as it is made; JSON goes to standard output or to a file at the end. */
+static nook_result report(const extremes_options *options, const nook_gpu *gpu, const nook_extreme_rows *rows)
+{
+    nook_json json = { 0 };
+    const char *text;
+    size_t size;
+    nook_extreme_write_json(&json, rows, gpu->renderer, options->quick);
+    nook_result result = nook_json_finish(&json, &text, &size);
+    if (result == NOOK_OK && options->out)
+        result = nook_file_write(options->out, text, size);
+    if (result == NOOK_OK && options->json)
+        result = nook_json_print(&json, stdout);
+    nook_json_free(&json);
+    if (result == NOOK_OK && !options->json)
+        nook_extreme_print_summary(stdout, rows);
+    return result;
+}
+
+static nook_result run_on(const extremes_options *options, nook_gpu *gpu, bool *out_hold)
+{
+    nook_scratch_folder scratch;
+    nook_result result = nook_scratch_folder_make(&scratch);
+    if (result != NOOK_OK)
+        return result;
+    extremes_run run = { .count = nook_extreme_count(options->only), .table = !options->json };
+    const nook_extremes extremes = {
+        .gpu = gpu, .scratch = scratch.path, .quick = options->quick, .progress = tell_progress, .progress_user = &run
+    };
+    nook_extreme_rows rows;
+    if (run.table)
+        nook_extreme_print_head(stdout);
+    result = nook_extreme_run_all(&extremes, options->only, begin_case, end_case, &run, &rows);
+    nook_scratch_folder_remove(&scratch);
+    if (result != NOOK_OK)
+        return result;
+    *out_hold = nook_extreme_summarize(&rows).failing == 0;
+    result = report(options, gpu, &rows);
+    nook_extreme_rows_free(&rows);
+    return result;
+}
+
+static int run_with_device(const nook_app *app, const extremes_options *options)
+{
+    bool hold = false;
+    nook_context *context;
+    nook_gpu *gpu = NULL;
+    const nook_context_desc desc = { .backend = (nook_backend)options->backend };
+    if (nook_context_create(&desc, &context) != NOOK_OK)
+        return NOOK_EXIT_FAILED;
+    const nook_gpu_desc gpu_desc = { nook_context_get_proc(context), app->root, .log_debug_output = true };
+    nook_result result = nook_gpu_create(&gpu_desc, &gpu);
+    if (result == NOOK_OK)
+        result = run_on(options, gpu, &hold);
+    nook_gpu_destroy(gpu);
+    nook_context_destroy(context);
+    return result == NOOK_OK && hold ? NOOK_EXIT_OK : NOOK_EXIT_FAILED;
+}
+
+int nook_command_extremes(const nook_app *app, int argc, char **argv)
+{
+    extremes_options settings = { .backend = NOOK_BACKEND_AUTO };
+    const nook_option options[] = {
+        { .name = "only",
+          .kind = NOOK_OPTION_TEXT,
+          .target = &settings.only,
+          .placeholder = "TEXT",
+          .help = "only groups and cases whose name holds TEXT" },
+        { .name = "list",
+          .kind = NOOK_OPTION_FLAG,
+          .target = &settings.list,
+          .help = "print what must hold, why the bound is what it is, and the limits; run nothing" },
+        { .name = "quick",
+          .kind = NOOK_OPTION_FLAG,
+          .target = &settings.quick,
+          .help = "fewer samples of the same cases, as the tests take" },
+        { .name = "out",
+          .kind = NOOK_OPTION_TEXT,
+          .target = &settings.out,
+          .placeholder = "FILE",
+          .help = "also write everything as JSON" },
+        { .name = "json",
+          .kind = NOOK_OPTION_FLAG,
+          .target = &settings.json,
+          .help = "print that JSON instead of the table" },
+        { .name = "backend",
+          .kind = NOOK_OPTION_CUSTOM,
+          .target = &settings.backend,
+          .placeholder = "NAME",
+          .read = read_backend,
+          .expects = "window, osmesa, egl or auto",
+          .help = "window, osmesa or egl; default: what this machine has" },
+    };
+    const nook_usage usage = {
+        .command = "extremes",
+        .summary = "Runs the cases at the edge: scale, distance, matrices, inputs that are wrong. Each says what must\n"
+                   "hold, measures it, and compares that with its bound.",
+        .options = options,
+        .option_count = NOOK_COUNT(options),
+        .details = "The last line is the summary. Exit code 0 only when every case that ran holds.\n"
+                   "What each case is for, and the limits: docs/measuring.md, Extremes.\n",
+    };
+    nook_arguments arguments;
+    int exit_code;
+    if (!nook_arguments_read(&usage, argc, argv, &arguments, &exit_code))
+        return exit_code;
+    if (nook_extreme_count(settings.only) == 0) {
+        fprintf(stderr, "nook: extremes: no case's name holds \"%s\"; --list names them\n", settings.only);
+        return NOOK_EXIT_FAILED;
+    }
+    if (settings.list) {
+        nook_extreme_print_list(stdout, settings.only);
+        return NOOK_EXIT_OK;
+    }
+    return run_with_device(app, &settings);
+}

@@ -1,0 +1,11 @@
+#include "game/extremes/groups.h"
+
+static const nook_extreme_group *const groups[] = {
+    &nook_extreme_transforms,
+};
+
+const nook_extreme_group *const *nook_extreme_groups(size_t *out_count)
+{
+    *out_count = NOOK_COUNT(groups);
+    return groups;
+}

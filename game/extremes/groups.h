@@ -1,0 +1,5 @@
+/** groups.h - the groups of extreme cases, each in game/extremes/<name>_cases.c. A new one: declare it here, list it in groups.c. */
+#pragma once
+#include "game/extremes/extremes.h"
+
+extern const nook_extreme_group nook_extreme_transforms; /**< Matrices of occluders. */

@@ -1,0 +1,50 @@
+#!/usr/bin/env bash
+# The command `extremes`: what it lists, runs, writes and returns.
+cd "${NOOK_ROOT:-$PWD}" || exit 1
+source tests/support/shell.sh
+tmp=${NOOK_TEST_TMP:-$(mktemp -d)}
+
+extremes() { "${NOOK_PROGRAM:-build/release/bin/nook}" extremes --backend osmesa "$@"; }
+
+test_list_names_every_case_and_runs_nothing() {
+    local list
+    list=$(extremes --list)
+    assert_holds "$list" transforms
+    assert_holds "$list" 'M_B^-1 M_A'
+    [[ $(tail -n 1 <<<"$list") =~ ^[0-9]+\ cases$ ]]
+}
+
+test_only_runs_what_matches_and_ends_with_the_summary() {
+    local table
+    table=$(extremes --quick --only 'm_b^-1 m_a')
+    assert_holds "$table" 'voxels of 256'
+    assert_holds "$table" holds
+    assert_holds "$(tail -n 1 <<<"$table")" '1 cases in 1 groups: 1 hold, 0 do not'
+}
+
+test_json_is_printed_and_written_with_why_and_limit() {
+    extremes --quick --only 'm_b^-1 m_a' --json --out "$tmp/extremes.json" >"$tmp/printed.json"
+    cmp "$tmp/printed.json" "$tmp/extremes.json"
+    assert_holds "$(cat "$tmp/extremes.json")" '"why": '
+    assert_holds "$(cat "$tmp/extremes.json")" '"limit": null'
+    assert_holds "$(cat "$tmp/extremes.json")" '"failing": 0'
+}
+
+test_text_that_no_case_holds_is_refused_in_one_line() {
+    local line
+    line=$(assert_fails 1 extremes --only nowhere)
+    assert_holds "$line" 'no case'
+    [ "$(wc -l <<<"$line")" -eq 1 ]
+}
+
+test_file_that_cannot_be_written_fails() {
+    assert_holds "$(assert_fails 1 extremes --quick --only 'm_b^-1' --out "$tmp/no/such/folder/x.json")" 'no/such/folder'
+}
+
+test_no_scratch_folder_is_left() {
+    mkdir -p "$tmp/scratch"
+    TMPDIR=$tmp/scratch extremes --quick --only 'm_b^-1' >/dev/null
+    [ -z "$(ls "$tmp/scratch")" ]
+}
+
+run_tests
