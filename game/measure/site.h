@@ -41,18 +41,19 @@ typedef struct nook_sample {
     double fetches;                   /**< Texture fetches per full-size pixel with geometry. */
     double volume_bytes;              /**< Of the volumes on the GPU; 0 for techniques that read none. */
     double texture_bytes;             /**< Of the AO's own textures at this size and scale. */
-    double bake_ms;                   /**< Baking all volumes, without any cache; 0 for techniques that read none. */
-    nook_errors truth;                /**< Against rays through the scene. */
-    nook_errors screen;               /**< Against rays through the surfaces that the depth buffer shows. */
-    double ssim;                      /**< Mean structural similarity with the truth, 1 = equal. */
-    double rmse_inside;               /**< RMSE on the near side of silhouettes, within a few pixels of them. */
-    double rmse_outside;              /**< ... on the far side, where halos are. */
-    double rmse_away;                 /**< ... everywhere else. */
-    double noise;                     /**< Standard deviation between seeds, RMS over pixels. */
-    nook_instability instability;     /**< Against a second camera (game/compare/second_view.h). */
+    double bake_ms;      /**< Baking all volumes; 0 for techniques that read none, NaN: some came from a cache. */
+    nook_errors truth;   /**< Against rays through the scene. */
+    nook_errors screen;  /**< Against rays through the surfaces that the depth buffer shows; NaN for such rays. */
+    double ssim;         /**< Mean structural similarity with the truth, 1 = equal. */
+    double rmse_inside;  /**< RMSE on the near side of silhouettes, within a few pixels of them. */
+    double rmse_outside; /**< ... on the far side, where halos are. */
+    double rmse_away;    /**< ... everywhere else. */
+    double noise;        /**< Standard deviation between seeds, RMS over pixels. */
+    nook_instability instability; /**< Against a second camera (game/compare/second_view.h). */
     double flicker;          /**< RMS change at the same points between consecutive frames of a short camera path. */
     double reference_noise;  /**< Of the truth, RMS: it stands in quadrature in truth.rmse. */
     uint32_t reference_rays; /**< Per pixel. */
+    double screen_noise;     /**< As reference_noise, of the truth that `screen` was measured against. */
     nook_grey visibility;    /**< NOOK_MEASURE_PICTURE: owned by the caller. */
 } nook_sample;
 
@@ -61,7 +62,7 @@ nook_result nook_site_open(struct nook_stage *stage, const nook_site_desc *desc,
 void nook_site_close(nook_site *site); /**< NULL is allowed. */
 
 /**
- * Draws the site's G-buffer again if another was drawn since, applies the setting and measures it. Where the truth's noise is over a
+ * Draws the site's G-buffer again, applies the setting and measures it. Where the truth's noise is over a
  * quarter of the error found, it is traced further first, as far as rays_max allows.
  * @param what  NOOK_MEASURE_*, no more than the site was opened for
  */

@@ -1,0 +1,250 @@
+#include "game/compare/frame_times.h"
+#include "game/compare/run.h"
+#include "game/measure/site_internal.h"
+#include "game/stage.h"
+#include "modules/ao/technique.h"
+#include "modules/measure/noise.h"
+#include "modules/measure/ssim.h"
+#include <assert.h>
+#include <math.h>
+
+enum { FRAMES = 5, BUDGET_MS = 1000, SEEDS = 3 };
+
+/* Of an error, what the truth's own noise may be: in quadrature a quarter adds 3 % to it. */
+static const double noise_part = 0.25;
+
+static nook_sample empty_sample(void)
+{
+    const nook_errors no_errors = { .rmse = NAN, .mae = NAN, .bias = NAN, .p99 = NAN, .max = NAN };
+    return (nook_sample){ .ms_median = NAN,
+                          .ms_min = NAN,
+                          .ms_max = NAN,
+                          .gpu_ms_median = NAN,
+                          .fetches = NAN,
+                          .bake_ms = NAN,
+                          .truth = no_errors,
+                          .screen = no_errors,
+                          .ssim = NAN,
+                          .rmse_inside = NAN,
+                          .rmse_outside = NAN,
+                          .rmse_away = NAN,
+                          .noise = NAN,
+                          .instability = { .rms = NAN, .contrast = NAN, .relative = NAN },
+                          .flicker = NAN,
+                          .screen_noise = NAN };
+}
+
+/* ---- Cost ------------------------------------------------------------------------------------------------------- */
+
+/* Baking all volumes; NaN when any came from a cache: reading is not baking. */
+static double sum_bake_ms(const nook_game_world *world)
+{
+    uint32_t count;
+    const nook_world_volume *volumes = nook_game_world_volumes(world, &count);
+    double sum = 0.0;
+    for (uint32_t i = 0; i < count; i++)
+        sum += volumes[i].cached ? NAN : volumes[i].bake_ms;
+    return sum;
+}
+
+/* Counting slows the shaders down, so it has a frame of its own; that one warms up what the others share with it. */
+static nook_result count(nook_site *site, const nook_ao_technique *technique, nook_sample *sample)
+{
+    nook_ao *ao = site->stage->ao;
+    nook_ao_statistics statistics;
+    nook_result result = nook_ao_set_param(ao, "ao.count", 1.0);
+    if (result == NOOK_OK)
+        result = nook_stage_occlude(site->stage);
+    if (result != NOOK_OK)
+        return result;
+    nook_ao_get_statistics(ao, &statistics);
+    bool volumes = technique->inputs & NOOK_AO_IN_VOLUMES;
+    sample->fetches = statistics.fetches_per_pixel;
+    sample->volume_bytes = volumes ? (double)statistics.volume_bytes : 0.0;
+    sample->texture_bytes = (double)statistics.texture_bytes;
+    sample->bake_ms = volumes ? sum_bake_ms(site->stage->world) : 0.0;
+    return nook_ao_set_param(ao, "ao.count", 0.0);
+}
+
+/* The last of them is the picture that is measured. */
+static nook_result time_frames(nook_site *site, const nook_ao_technique *technique, nook_sample *sample)
+{
+    nook_frame_times times;
+    nook_result result = NOOK_OK;
+    if (!technique->exact)
+        result = nook_stage_occlude(site->stage); /* warms up: without counting it is another program */
+    if (result == NOOK_OK)
+        result = nook_frame_times_measure(site->stage, technique->exact ? 1 : FRAMES, BUDGET_MS, &times);
+    if (result != NOOK_OK)
+        return result;
+    sample->ms_median = times.median;
+    sample->ms_min = times.min;
+    sample->ms_max = times.max;
+    sample->gpu_ms_median = times.gpu_median;
+    sample->frames = times.frames;
+    return NOOK_OK;
+}
+
+/* ---- Steadiness ------------------------------------------------------------------------------------------------- */
+
+static nook_result record(nook_site *site, uint32_t seed, nook_grey *out_picture)
+{
+    site->stage->frame_index = seed;
+    nook_result result = nook_stage_occlude(site->stage);
+    site->stage->frame_index = 0;
+    return result == NOOK_OK ? nook_compare_read_visibility(site->stage, out_picture) : result;
+}
+
+static nook_result record_from(nook_site *site, const nook_camera *camera, nook_grey *out_picture)
+{
+    nook_result result = nook_stage_begin(site->stage, camera);
+    return result == NOOK_OK ? record(site, 0, out_picture) : result;
+}
+
+static nook_result measure_noise(nook_site *site, const nook_grey *picture, nook_sample *sample)
+{
+    nook_grey others[SEEDS - 1] = { 0 };
+    const float *pictures[SEEDS] = { picture->values };
+    nook_result result = NOOK_OK;
+    for (uint32_t i = 1; i < SEEDS && result == NOOK_OK; i++) {
+        result = record(site, i, &others[i - 1]);
+        pictures[i] = others[i - 1].values;
+    }
+    if (result == NOOK_OK)
+        sample->noise = nook_noise_measure(pictures, SEEDS, site->geometry, (size_t)site->width * site->height).rms;
+    for (size_t i = 0; i < NOOK_COUNT(others); i++)
+        nook_grey_free(&others[i]);
+    return result;
+}
+
+static nook_result measure_instability(nook_site *site, const nook_grey *picture, nook_sample *sample)
+{
+    nook_grey second;
+    nook_result result = record_from(site, &site->views.second.camera, &second);
+    if (result != NOOK_OK)
+        return result;
+    sample->instability = nook_instability_measure(&site->views.second_match, picture->values, second.values);
+    nook_grey_free(&second);
+    return NOOK_OK;
+}
+
+static nook_result measure_flicker(nook_site *site, const nook_grey *picture, nook_sample *sample)
+{
+    nook_grey others[NOOK_PATH_VIEWS - 1] = { 0 };
+    const float *pictures[NOOK_PATH_VIEWS] = { picture->values };
+    nook_result result = NOOK_OK;
+    for (int i = 1; i < NOOK_PATH_VIEWS && result == NOOK_OK; i++) {
+        result = record_from(site, &site->views.path[i], &others[i - 1]);
+        pictures[i] = others[i - 1].values;
+    }
+    if (result == NOOK_OK)
+        sample->flicker = nook_flicker_measure(site->views.path_matches, pictures, NOOK_PATH_VIEWS).rms;
+    for (size_t i = 0; i < NOOK_COUNT(others); i++)
+        nook_grey_free(&others[i]);
+    return result;
+}
+
+/* Seeds first, while the G-buffer is the site's own; it is again afterwards. */
+static nook_result measure_steadiness(nook_site *site, const nook_grey *picture, nook_sample *sample)
+{
+    nook_result result = measure_noise(site, picture, sample);
+    if (result == NOOK_OK)
+        result = measure_instability(site, picture, sample);
+    if (result == NOOK_OK)
+        result = measure_flicker(site, picture, sample);
+    return result == NOOK_OK ? nook_stage_begin(site->stage, &site->camera) : result;
+}
+
+/* ---- Errors ----------------------------------------------------------------------------------------------------- */
+
+/* Measures; where the truth is too noisy for what was found, it is traced further and measured again. */
+static nook_result measure_against(nook_site *site, nook_truth *truth, const nook_grey *picture,
+                                   nook_errors *out_errors)
+{
+    size_t pixels = (size_t)site->width * site->height;
+    nook_result result = nook_errors_measure(picture->values, truth->values, site->geometry, pixels, out_errors);
+    uint32_t rays = 0;
+    while (result == NOOK_OK && truth->noise > noise_part * out_errors->rmse && truth->rays != rays) {
+        rays = truth->rays;
+        result = nook_truth_refine(truth, site->stage, noise_part * out_errors->rmse);
+        if (result == NOOK_OK)
+            result = nook_errors_measure(picture->values, truth->values, site->geometry, pixels, out_errors);
+    }
+    return result;
+}
+
+static nook_result measure_sides(nook_site *site, const nook_grey *picture, nook_sample *sample)
+{
+    double *const out[] = { &sample->rmse_inside, &sample->rmse_outside, &sample->rmse_away };
+    nook_result result = NOOK_OK;
+    for (size_t i = 0; i < NOOK_COUNT(out) && result == NOOK_OK; i++) {
+        nook_errors errors;
+        result = nook_errors_measure(picture->values, site->truth.values, site->sides[i],
+                                     (size_t)site->width * site->height, &errors);
+        if (result == NOOK_OK)
+            *out[i] = errors.rmse;
+    }
+    return result;
+}
+
+/* What is left out of `screen`: the rays of the screen's own truth, whose difference from it is chance. */
+static nook_result measure_errors(nook_site *site, const nook_setting *setting, uint32_t what, const nook_grey *picture,
+                                  nook_sample *sample)
+{
+    nook_ssim ssim;
+    nook_result result = measure_against(site, &site->truth, picture, &sample->truth);
+    if (result == NOOK_OK)
+        result = measure_sides(site, picture, sample);
+    if (result == NOOK_OK)
+        result =
+            nook_ssim_measure(picture->values, site->truth.values, site->geometry, site->width, site->height, &ssim);
+    if (result == NOOK_OK && what & NOOK_MEASURE_SCREEN && !setting->technique->exact)
+        result = measure_against(site, &site->screen, picture, &sample->screen);
+    if (result != NOOK_OK)
+        return result;
+    sample->ssim = ssim.mean;
+    sample->reference_noise = site->truth.noise;
+    sample->reference_rays = site->truth.rays;
+    if (what & NOOK_MEASURE_SCREEN)
+        sample->screen_noise = site->screen.noise;
+    return NOOK_OK;
+}
+
+/* Everything that needs the picture, which stays the caller's. */
+static nook_result measure_picture(nook_site *site, const nook_setting *setting, uint32_t what,
+                                   const nook_grey *picture, nook_sample *sample)
+{
+    nook_result result = NOOK_OK;
+    if (what & NOOK_MEASURE_STEADINESS)
+        result = measure_steadiness(site, picture, sample);
+    return result == NOOK_OK ? measure_errors(site, setting, what, picture, sample) : result;
+}
+
+nook_result nook_site_measure(nook_site *site, const nook_setting *setting, uint32_t what, nook_sample *out_sample)
+{
+    assert((what & ~site->what) == 0 && "a site is opened for all that is asked of it");
+    assert(site->width == site->stage->width && site->height == site->stage->height);
+    nook_sample sample = empty_sample();
+    nook_grey picture = { 0 };
+    site->stage->frame_index = 0;
+    nook_result result = nook_stage_begin(site->stage, &site->camera);
+    if (result == NOOK_OK)
+        result = nook_setting_apply(site->stage->ao, setting);
+    if (result == NOOK_OK && !setting->technique->exact)
+        result = count(site, setting->technique, &sample);
+    if (result == NOOK_OK && what & NOOK_MEASURE_TIME)
+        result = time_frames(site, setting->technique, &sample);
+    else if (result == NOOK_OK)
+        result = nook_stage_occlude(site->stage);
+    if (result == NOOK_OK)
+        result = nook_compare_read_visibility(site->stage, &picture);
+    if (result == NOOK_OK)
+        result = measure_picture(site, setting, what, &picture, &sample);
+    if (result == NOOK_OK && what & NOOK_MEASURE_PICTURE)
+        sample.visibility = picture;
+    else
+        nook_grey_free(&picture);
+    if (result == NOOK_OK)
+        *out_sample = sample;
+    return result;
+}
