@@ -2,6 +2,9 @@
 
 static const nook_extreme_group *const groups[] = {
     &nook_extreme_transforms,
+    &nook_extreme_triangles,
+    &nook_extreme_memory,
+    &nook_extreme_spinning,
 };
 
 const nook_extreme_group *const *nook_extreme_groups(size_t *out_count)

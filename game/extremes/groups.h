@@ -3,3 +3,6 @@
 #include "game/extremes/extremes.h"
 
 extern const nook_extreme_group nook_extreme_transforms; /**< Matrices of occluders. */
+extern const nook_extreme_group nook_extreme_triangles;  /**< What is baked. */
+extern const nook_extreme_group nook_extreme_memory;     /**< What baking takes. */
+extern const nook_extreme_group nook_extreme_spinning;   /**< A body that turns for a million frames. */

@@ -96,6 +96,45 @@ static void test_matrix_is_orthonormal_and_not_mirrored(void **state)
     }
 }
 
+/* The obvious formulation: a matrix of floats that is multiplied by the same small rotation every frame. */
+static void multiply_floats(const float a[9], const float b[9], float out[9])
+{
+    for (int column = 0; column < 3; column++)
+        for (int row = 0; row < 3; row++)
+            out[column * 3 + row] =
+                a[row] * b[column * 3] + a[3 + row] * b[column * 3 + 1] + a[6 + row] * b[column * 3 + 2];
+}
+
+static void test_a_million_frames_keep_what_a_matrix_of_floats_loses(void **state)
+{
+    (void)state;
+    enum { FRAMES = 1000000, FRAMES_PER_TURN = 1000 };
+    const double velocity[3] = { 0.48 * 2 * pi, -0.6 * 2 * pi, 0.64 * 2 * pi };
+    double rotation[4] = { 0, 0, 0, 1 }, step[4] = { 0, 0, 0, 1 };
+    nook_rotation_advance(step, velocity, 1.0 / FRAMES_PER_TURN);
+    nook_matrix step_matrix = nook_rotation_matrix(step);
+    float naive[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 }, step_floats[9];
+    for (int i = 0; i < 9; i++)
+        step_floats[i] = (float)step_matrix.m[i / 3 * 4 + i % 3];
+    for (int frame = 0; frame < FRAMES; frame++) {
+        float turned[9];
+        multiply_floats(step_floats, naive, turned);
+        for (int i = 0; i < 9; i++)
+            naive[i] = turned[i];
+        nook_rotation_advance(rotation, velocity, 1.0 / FRAMES_PER_TURN);
+    }
+    nook_matrix m = nook_rotation_matrix(rotation); /* a thousand whole turns */
+    double worst = 0.0, naive_worst = 0.0;
+    for (int i = 0; i < 9; i++) {
+        double expected = i % 4 == 0 ? 1.0 : 0.0;
+        worst = fmax(worst, fabs(m.m[i / 3 * 4 + i % 3] - expected));
+        naive_worst = fmax(naive_worst, fabs(naive[i] - expected));
+    }
+    print_message("off by %.2g, a matrix of floats by %.2g\n", worst, naive_worst);
+    assert_true(worst <= FRAMES * 4 * DBL_EPSILON);
+    assert_true(naive_worst > 1e-3); /* if not, docs/measuring.md says something that is wrong */
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -105,6 +144,7 @@ int main(void)
         cmocka_unit_test(test_advance_brings_a_quaternion_back_to_unit_length),
         cmocka_unit_test(test_ten_thousand_steps_end_where_one_ends),
         cmocka_unit_test(test_matrix_is_orthonormal_and_not_mirrored),
+        cmocka_unit_test(test_a_million_frames_keep_what_a_matrix_of_floats_loses),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
