@@ -3,12 +3,13 @@
 #include "engine/core/log.h"
 #include "modules/bake/rasterize.h"
 #include <cglm/cglm.h>
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <xxhash.h>
 
-static const double smallest_side = 1e-6; /* metres: a single point still needs a voxel size */
+static const double side_of_a_point = 1e-6; /* metres: a single point still needs a voxel size */
 
 /* ---- Reading triangles ------------------------------------------------------------------------------------------ */
 
@@ -79,11 +80,20 @@ typedef struct grid_frame {
     uint32_t size[3]; /* with it */
 } grid_frame;
 
+/** Longest side; never 0, nor less than what corners in float can tell apart. No length of ours: bodies have any size. */
+static double longest_side(const double box_min[3], const double box_max[3])
+{
+    double longest = 0.0;
+    for (int axis = 0; axis < 3; axis++) {
+        double step = FLT_EPSILON * fmax(fabs(box_min[axis]), fabs(box_max[axis]));
+        longest = fmax(longest, fmax(box_max[axis] - box_min[axis], step));
+    }
+    return longest > 0.0 ? longest : side_of_a_point;
+}
+
 static grid_frame frame_box(const double box_min[3], const double box_max[3], uint32_t resolution)
 {
-    double longest = smallest_side;
-    for (int axis = 0; axis < 3; axis++)
-        longest = fmax(longest, box_max[axis] - box_min[axis]);
+    double longest = longest_side(box_min, box_max);
     grid_frame frame = { .voxel_size = longest / resolution };
     for (int axis = 0; axis < 3; axis++) {
         /* Rounding in the division must not buy a whole layer; snapping clamps what then stands out. */

@@ -68,6 +68,43 @@ static void test_axis_aligned_box_becomes_its_shell(void **state)
     nook_volume_free(&v);
 }
 
+static void test_a_body_has_the_same_voxels_at_any_scale(void **state)
+{
+    (void)state;
+    test_sphere *s = test_make_sphere(1.0);
+    nook_triangles sphere = test_sphere_triangles(s);
+    nook_volume usual = test_voxelize(&sphere, 20, 1);
+    for (int exponent = -60; exponent <= 60; exponent += 30) { /* powers of two: nothing is rounded */
+        for (size_t i = 0; i < SPHERE_VERTICES; i++)
+            for (int axis = 0; axis < 3; axis++)
+                s->points[i][axis] = ldexpf(s->points[i][axis], exponent);
+        nook_volume v = test_voxelize(&sphere, 20, 1);
+        test_assert_same_voxels(&usual, &v);
+        assert_true(v.info.voxel_size == ldexp(usual.info.voxel_size, exponent));
+        nook_volume_free(&v);
+        for (size_t i = 0; i < SPHERE_VERTICES; i++)
+            for (int axis = 0; axis < 3; axis++)
+                s->points[i][axis] = ldexpf(s->points[i][axis], -exponent);
+    }
+    nook_volume_free(&usual);
+    free(s);
+}
+
+static void test_a_point_becomes_one_voxel_wherever_it_is(void **state)
+{
+    (void)state;
+    const float places[] = { 0.0f, 1e-30f, 5.0f, 1e7f };
+    const uint32_t indices[3] = { 0, 0, 0 };
+    for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
+        const float point[3] = { places[i], -places[i], places[i] };
+        nook_triangles triangle = { point, 0, 1, indices, 3 };
+        nook_volume v = test_voxelize(&triangle, 1, 1);
+        assert_int_equal(v.info.occupied, 1);
+        assert_int_equal(test_voxel_at(&v, 1, 1, 1), 255);
+        nook_volume_free(&v);
+    }
+}
+
 static void test_flat_plane_becomes_exactly_one_layer(void **state)
 {
     (void)state;
@@ -318,6 +355,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_axis_aligned_box_becomes_its_shell),
+        cmocka_unit_test(test_a_body_has_the_same_voxels_at_any_scale),
+        cmocka_unit_test(test_a_point_becomes_one_voxel_wherever_it_is),
         cmocka_unit_test(test_flat_plane_becomes_exactly_one_layer),
         cmocka_unit_test(test_walls_inside_a_scene_stay_one_layer_whatever_their_phase),
         cmocka_unit_test(test_sphere_voxels_lie_on_the_sphere_and_cover_it),
