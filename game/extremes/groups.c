@@ -1,6 +1,7 @@
 #include "game/extremes/groups.h"
 
 static const nook_extreme_group *const groups[] = {
+    &nook_extreme_space,
     &nook_extreme_transforms,
     &nook_extreme_triangles,
     &nook_extreme_memory,

@@ -1,0 +1,205 @@
+#include "game/extremes/edge_scene.h"
+#include "game/techniques.h"
+#include "modules/fixture/draw.h"
+#include <assert.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { SIZE_USUAL = 48, RESOLUTION_USUAL = 64, RAYS_USUAL = 16, TECHNIQUES_MAX = 16 };
+static const double R_MAX_USUAL = 0.8, Z_NEAR_USUAL = 0.1, FOV_Y = 0.8;
+
+static double or_usual(double value, double usual)
+{
+    return value != 0.0 ? value : usual;
+}
+
+/* ---- Bodies ---- */
+
+/** One of the four, in usual units. */
+static void build_body(int body, nook_fixture_mesh *mesh)
+{
+    switch (body) {
+    case 0:
+        nook_fixture_add_quad(mesh, (double[]){ -2.5, -2.5, 0 }, (double[]){ 5, 0, 0 }, (double[]){ 0, 5, 0 });
+        break;
+    case 1:
+        nook_fixture_add_box(mesh, (double[]){ -2.5, 1.5, 0 }, (double[]){ 2.5, 1.7, 1.6 }, 63);
+        break;
+    case 2:
+        nook_fixture_add_box(mesh, (double[]){ -0.9, -0.4, 0 }, (double[]){ 0.1, 0.6, 0.8 }, 63);
+        break;
+    default:
+        nook_fixture_add_sphere(mesh, (double[]){ 1.1, -0.5, 0.5 }, 0.5, 24);
+    }
+}
+
+static void scale_vertices(nook_fixture_mesh *mesh, double scale)
+{
+    for (size_t i = 0; i < (size_t)mesh->vertex_count * 3; i++)
+        mesh->positions[i] = (float)(mesh->positions[i] * scale);
+}
+
+static void append(nook_fixture_mesh *mesh, const nook_fixture_mesh *part)
+{
+    for (uint32_t i = 0; i < part->index_count; i += 3) {
+        double corner[3][3];
+        for (uint32_t k = 0; k < 9; k++)
+            corner[k / 3][k % 3] = part->positions[part->indices[i + k / 3] * 3 + k % 3];
+        nook_fixture_add_triangle(mesh, corner[0], corner[1], corner[2]);
+    }
+}
+
+static nook_result add_bodies(nook_edge_scene *scene, const nook_edge_scene_desc *desc)
+{
+    const uint32_t resolution = desc->resolution ? desc->resolution : RESOLUTION_USUAL;
+    const double scale = or_usual(desc->matrix_scale, 1.0);
+    const nook_matrix world_from_mesh = nook_matrix_scale(scale, scale, scale);
+    nook_result result = NOOK_OK;
+    for (int body = 0; body < NOOK_EDGE_BODIES && result == NOOK_OK; body++) {
+        nook_fixture_mesh mesh = { 0 };
+        double voxel_size;
+        build_body(body, &mesh);
+        scale_vertices(&mesh, or_usual(desc->vertex_scale, 1.0));
+        result = nook_fixture_view_add(scene->view, &mesh, resolution, &world_from_mesh, &voxel_size);
+        scale_vertices(&mesh, scale);
+        append(&scene->world, &mesh);
+        nook_fixture_mesh_free(&mesh);
+        if (result == NOOK_OK)
+            scene->voxel_size = fmax(scene->voxel_size, voxel_size * scale);
+    }
+    return result;
+}
+
+/* ---- Camera and parameters ---- */
+
+static void place_camera(nook_edge_scene *scene, const nook_edge_scene_desc *desc)
+{
+    double eye[3] = { 2.2, -3.0, 2.2 }, target[3] = { 0.1, 0.2, 0.3 };
+    const double up[3] = { 0, 0, 1 };
+    nook_fixture_view *view = scene->view;
+    for (int axis = 0; axis < 3; axis++)
+        eye[axis] *= scene->scale, target[axis] *= scene->scale;
+    const nook_fixture_projection projection = { .fov_y_radians = FOV_Y,
+                                                 .aspect = (double)view->width / view->height,
+                                                 .z_near = or_usual(desc->z_near, Z_NEAR_USUAL) * scene->scale,
+                                                 .z_far = desc->z_far * scene->scale,
+                                                 .normal_z = desc->normal_z };
+    view->view_from_world = nook_matrix_look_at(eye, target, up);
+    view->clip_from_view = nook_fixture_projection_matrix(&projection);
+    if (desc->rows_down)
+        view->clip_from_view.m[5] = -view->clip_from_view.m[5];
+}
+
+static nook_result set_params(nook_edge_scene *scene)
+{
+    nook_ao *ao = scene->view->ao;
+    nook_result result = nook_edge_scene_reach(scene, R_MAX_USUAL);
+    if (result == NOOK_OK)
+        result = nook_ao_set_param(ao, "volume.rays", RAYS_USUAL);
+    if (result == NOOK_OK)
+        result = nook_ao_set_param(ao, "reference.rays", RAYS_USUAL);
+    return result;
+}
+
+nook_result nook_edge_scene_reach(nook_edge_scene *scene, double r_max)
+{
+    return nook_ao_set_param(scene->view->ao, "ao.r_max", r_max * scene->scale);
+}
+
+nook_result nook_edge_scene_draw(nook_edge_scene *scene)
+{
+    nook_fixture_view_clear(scene->view);
+    return nook_fixture_view_draw(scene->view, &scene->world);
+}
+
+/* ---- Making it ---- */
+
+static nook_result open_view(const nook_extremes *extremes, const nook_edge_scene_desc *desc, nook_edge_scene *scene)
+{
+    size_t count;
+    const nook_ao_technique *const *ours = nook_techniques(&count), *techniques[TECHNIQUES_MAX + 1];
+    assert(count <= TECHNIQUES_MAX);
+    memcpy(techniques, ours, count * sizeof *ours);
+    if (desc->technique)
+        techniques[count++] = desc->technique;
+    const nook_fixture_view_desc view = { .gpu = extremes->gpu,
+                                          .width = desc->width ? desc->width : SIZE_USUAL,
+                                          .height = desc->height ? desc->height : SIZE_USUAL,
+                                          .techniques = techniques,
+                                          .technique_count = count,
+                                          .depth_format = desc->depth_format,
+                                          .normal_format = desc->normal_format,
+                                          .progress_user = desc->user };
+    nook_result result = nook_fixture_view_create(&view, &scene->view);
+    if (result != NOOK_OK)
+        return result;
+    scene->pixels = (size_t)view.width * view.height;
+    return NOOK_OK;
+}
+
+nook_result nook_edge_scene_make(const nook_extremes *extremes, const nook_edge_scene_desc *desc,
+                                 nook_edge_scene *out_scene)
+{
+    nook_edge_scene scene = { .scale = or_usual(desc->vertex_scale, 1.0) * or_usual(desc->matrix_scale, 1.0) };
+    scene.diagonal = sqrt(5.0 * 5.0 + 5.0 * 5.0 + 1.6 * 1.6) * scene.scale;
+    *out_scene = (nook_edge_scene){ 0 };
+    nook_result result = open_view(extremes, desc, &scene);
+    if (result == NOOK_OK)
+        result = add_bodies(&scene, desc);
+    if (result == NOOK_OK)
+        result = set_params(&scene);
+    if (result == NOOK_OK) {
+        place_camera(&scene, desc);
+        result = nook_edge_scene_draw(&scene);
+    }
+    if (result != NOOK_OK) {
+        nook_edge_scene_free(&scene);
+        return result;
+    }
+    *out_scene = scene;
+    return NOOK_OK;
+}
+
+void nook_edge_scene_free(nook_edge_scene *scene)
+{
+    nook_fixture_view_destroy(scene->view);
+    nook_fixture_mesh_free(&scene->world);
+    *scene = (nook_edge_scene){ 0 };
+}
+
+void nook_edge_scene_move(nook_edge_scene *scene, const nook_matrix *move)
+{
+    nook_fixture_view *view = scene->view;
+    nook_matrix back;
+    nook_matrix_inverse_affine(move, &back);
+    view->view_from_world = nook_matrix_multiply(&view->view_from_world, &back);
+    for (uint32_t i = 0; i < view->occluder_count; i++) {
+        nook_matrix world_from_mesh;
+        memcpy(world_from_mesh.m, view->occluders[i].world_from_mesh, sizeof world_from_mesh.m);
+        world_from_mesh = nook_matrix_multiply(move, &world_from_mesh);
+        memcpy(view->occluders[i].world_from_mesh, world_from_mesh.m, sizeof world_from_mesh.m);
+    }
+    for (size_t i = 0; i < scene->pixels; i++) {
+        double normal[3];
+        nook_fixture_decode_normal(view->normals[i], normal);
+        nook_matrix_apply_vector(move, normal, normal);
+        nook_fixture_encode_normal(normal, view->normals[i]);
+    }
+}
+
+nook_result nook_edge_scene_record(nook_edge_scene *scene, const char *technique, nook_extreme_found *found,
+                                   const char *format, ...)
+{
+    char where[160];
+    va_list arguments;
+    nook_result result = nook_fixture_view_record(scene->view, technique);
+    if (result != NOOK_OK)
+        return result;
+    va_start(arguments, format);
+    vsnprintf(where, sizeof where, format, arguments);
+    va_end(arguments);
+    nook_extreme_check(found, scene->view->visibility, scene->pixels, "%s, %s", technique, where);
+    return NOOK_OK;
+}
