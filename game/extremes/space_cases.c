@@ -1,5 +1,6 @@
 /* Scale and place: the same picture wherever the scene is and however large. */
 #include "game/extremes/edge_pictures.h"
+#include "game/extremes/float_formulas.h"
 #include "game/extremes/groups.h"
 #include <math.h>
 #include <stdio.h>
@@ -97,6 +98,58 @@ static nook_result run_moved(const nook_extremes *extremes, nook_extreme_found *
     return result;
 }
 
+/* ---- The arithmetic alone ---- */
+
+static const double VOXELS = 256.0, SIDE = 5.0; /* a volume as large as the scene */
+
+static nook_float_setting setting_at(double offset)
+{
+    const double eye[3] = { 2.2 + offset, -3.0 + offset, 2.2 + offset };
+    const double target[3] = { 0.1 + offset, 0.2 + offset, 0.3 + offset }, up[3] = { 0, 0, 1 };
+    const double step = SIDE / VOXELS, still[4] = { 0, 0, 0, 1 }, scale[3] = { step, step, step };
+    const double corner[3] = { offset - 0.5 * SIDE, offset - 0.5 * SIDE, offset - 0.5 * SIDE };
+    return (nook_float_setting){ .view_from_world = nook_matrix_look_at(eye, target, up),
+                                 .clip_from_view = nook_matrix_perspective_reversed(0.8, 1.0, 0.1),
+                                 .world_from_voxel = nook_matrix_compose(corner, still, scale) };
+}
+
+/** The worst of each way over pixels all over the image, 2 to 7 units away. */
+static nook_float_error worst_at(double offset, int pixels)
+{
+    const nook_float_setting setting = setting_at(offset);
+    nook_float_error worst = { 0 };
+    for (int i = 0; i < pixels * pixels; i++) {
+        const nook_float_pixel pixel = { { (float)(2.0 * (i % pixels + 0.5) / pixels - 1.0),
+                                           (float)(2.0 * (i / pixels + 0.5) / pixels - 1.0) },
+                                         (float)(2.0 + 5.0 * fmod(i * 0.61803398875, 1.0)) };
+        const nook_float_error error = nook_float_measure(&setting, &pixel);
+        worst.relative = fmax(worst.relative, error.relative);
+        worst.world = fmax(worst.world, error.world);
+        worst.projection = fmax(worst.projection, error.projection);
+    }
+    return worst;
+}
+
+static nook_result run_arithmetic(const nook_extremes *extremes, nook_extreme_found *out_found)
+{
+    const int pixels = extremes->quick ? 8 : 64;
+    double world_lost = INFINITY, projection_lost = INFINITY; /* the first offset at which a voxel is missed */
+    nook_float_error near = worst_at(1e4, pixels), far = worst_at(1e7, pixels);
+    out_found->bound = 1.0 / 256.0;
+    for (double offset = 1.0; offset <= 1.5e7; offset *= 10.0) {
+        const nook_float_error error = worst_at(offset, pixels);
+        world_lost = error.world > 1.0 ? fmin(world_lost, offset) : world_lost;
+        projection_lost = error.projection > 1.0 ? fmin(projection_lost, offset) : projection_lost;
+        nook_extreme_worst(out_found, error.relative, "%g units off", offset);
+    }
+    snprintf(out_found->where, sizeof out_found->where,
+             "world-space float: %.2g voxels wrong at 1e4, %.2g at 1e7, over 1 from %g; inverse view-projection: %.2g, "
+             "%.2g, "
+             "from %g",
+             near.world, far.world, world_lost, near.projection, far.projection, projection_lost);
+    return NOOK_OK;
+}
+
 static const nook_extreme cases[] = {
     { .name = "a scene scaled by powers of two from 2^-20 to 2^20, r_max with it, is bit for bit the same",
       .unit = "pixels",
@@ -110,6 +163,10 @@ static const nook_extreme cases[] = {
       .unit = "RMS of visibility",
       .why = "In double a place 1e7 units off is known to 2e-9: a 30th of a float's step at one unit.",
       .run = run_moved },
+    { .name = "a visible point's voxel by our float arithmetic, up to 1e7 units off",
+      .unit = "voxels of 256",
+      .why = "Hardware filters voxels with weights of 8 bits. Where: what the obvious formulas lose instead.",
+      .run = run_arithmetic },
 };
 
 const nook_extreme_group nook_extreme_space = { .name = "space", .cases = cases, .count = NOOK_COUNT(cases) };

@@ -24,7 +24,7 @@ extern "C" {
 #endif
 
 /** Raise it when the voxels of the same triangles change: cached volumes of older versions are then baked again. */
-#define NOOK_VOXELIZE_VERSION 1u
+#define NOOK_VOXELIZE_VERSION 2u
 #define NOOK_VOXELIZE_RESOLUTION_MAX (NOOK_VOLUME_SIDE_MAX - 2u)
 
 typedef struct nook_triangles {
