@@ -54,7 +54,8 @@ typedef struct nook_ao_desc {
 typedef struct nook_ao_occluder {
     nook_ao_volume volume;      /**< What the volume techniques march; id 0: they do not see this occluder. */
     nook_ao_mesh mesh;          /**< What the reference traces; id 0: it does not see this occluder. */
-    double world_from_mesh[16]; /**< Any affine matrix; a singular one leaves the occluder out. */
+    double world_from_mesh[16]; /**< Any affine matrix; a singular one leaves the occluder out, and so does one beyond what
+                                     floats hold: voxels smaller than 1e-18 m or larger than 1e18 m. */
 } nook_ao_occluder;
 
 typedef struct nook_ao_frame {

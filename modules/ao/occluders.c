@@ -44,6 +44,18 @@ static void set_sphere(const nook_matrix *view_from_voxel, const nook_volume_inf
     out->size[3] = (float)radius;
 }
 
+/** A shader gets floats: entries must be some, and none of its axes may have vanished. */
+static int fits_floats(const ao_gpu_occluder *o)
+{
+    int fits = isfinite(o->size[3]);
+    for (int row = 0; row < 3; row++) {
+        const float *m = o->voxel_from_view[row], *n = o->normal_from_view[row];
+        float linear = m[0] * m[0] + m[1] * m[1] + m[2] * m[2], normal = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
+        fits = fits && isnormal(linear) && isnormal(normal) && isfinite(m[3]) && isfinite(o->centre[row]);
+    }
+    return fits;
+}
+
 static int compose(const atlas_entry *entry, const nook_matrix *view_from_mesh, ao_gpu_occluder *out)
 {
     const nook_volume_info *info = &entry->info;
@@ -59,7 +71,7 @@ static int compose(const atlas_entry *entry, const nook_matrix *view_from_mesh, 
     for (int axis = 0; axis < 3; axis++)
         out->atlas[axis] = (float)entry->box.origin[axis];
     set_sphere(&view_from_voxel, info, out);
-    return 1;
+    return fits_floats(out);
 }
 
 uint32_t ao_collect_volumes(nook_ao *ao, const nook_matrix *view_from_world)

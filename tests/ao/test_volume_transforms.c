@@ -241,6 +241,27 @@ static void test_volume_and_reference_leave_out_occluders_of_singular_matrices(v
     }
 }
 
+static void test_volume_leaves_out_matrices_beyond_floats_and_takes_those_within(void **state)
+{
+    static const struct {
+        double scale;
+        uint32_t taken;
+    } cases[] = { { 1e-300, 0 }, { 1e-40, 0 }, { 1e-20, 0 }, { 1e-15, 1 }, { 1e15, 1 }, { 1e20, 0 }, { 1e40, 0 } };
+    ao_fixture *fixture = prepare(state, "3");
+    nook_fixture_mesh mesh = { 0 };
+    nook_fixture_add_box(&mesh, (double[]){ -1, -1, 0.2 }, (double[]){ 1, 1, 1 }, 63);
+    ao_fixture_add(fixture, &mesh, 16);
+    nook_fixture_mesh_free(&mesh);
+    for (size_t i = 0; i < NOOK_COUNT(cases); i++) {
+        const nook_matrix matrix = nook_matrix_scale(cases[i].scale, cases[i].scale, cases[i].scale);
+        nook_ao_statistics statistics;
+        set_matrix(&fixture->view->occluders[0], &matrix);
+        measure(fixture, "volume");
+        nook_ao_get_statistics(fixture->view->ao, &statistics);
+        assert_int_equal(statistics.occluders, cases[i].taken);
+    }
+}
+
 static void test_volume_stays_in_range_for_any_reach(void **state)
 {
     ao_fixture *fixture = prepare(state, "1");
@@ -335,6 +356,7 @@ int main(void)
         cmocka_unit_test(test_volume_sees_a_sheet_that_stands_askew_in_its_voxels),
         cmocka_unit_test(test_volume_scaled_by_its_matrix_equals_the_one_baked_scaled),
         cmocka_unit_test(test_volume_and_reference_leave_out_occluders_of_singular_matrices),
+        cmocka_unit_test(test_volume_leaves_out_matrices_beyond_floats_and_takes_those_within),
         cmocka_unit_test(test_volume_stays_in_range_for_any_reach),
         cmocka_unit_test(test_volume_sees_every_one_of_three_hundred_occluders),
         cmocka_unit_test(test_volume_sees_the_last_of_many_when_only_that_one_is_near),
