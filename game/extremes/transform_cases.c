@@ -2,6 +2,7 @@
 #include "game/extremes/groups.h"
 #include "game/extremes/oracle_matrix.h"
 #include "game/extremes/random_transform.h"
+#include "game/extremes/transform_internal.h"
 #include <math.h>
 
 /* ---- M_B^-1 M_A ---- */
@@ -69,6 +70,22 @@ static const nook_extreme cases[] = {
       .unit = "voxels of 256",
       .why = "Voxels are filtered with weights of 8 bits: a shift of less than 1/256 voxel changes nothing.",
       .run = run_relative },
+    { .name = "voxel_from_view and its normal matrix as shaders get them, up to 1e7 units off",
+      .unit = "roundings to float",
+      .why = "Composed in double, rounded once: one rounding of each entry, and a twentieth for double's own at 1e7.",
+      .run = nook_transform_run_uploaded },
+    { .name = "singular, NaN, infinite, vast and tiny matrices change no bit of the others' picture",
+      .unit = "pixels",
+      .why = "What has no inverse in floats is left out; and nothing is left of a box that large or small in sight.",
+      .run = nook_transform_run_left_out },
+    { .name = "reference: a mesh under a matrix occludes as the mesh whose vertices it has moved",
+      .unit = "A",
+      .why = "The same rays: at most one of the 256 of each pixel may pass an edge on the other side.",
+      .run = nook_transform_run_instances },
+    { .name = "volume: a box turned, mirrored, 100:1 stretched, sheared lies between it a voxel smaller and larger",
+      .unit = "A beyond",
+      .why = "A filtered voxel surface lies within a voxel of the true one; 0.005 is the noise of 256 rays.",
+      .run = nook_transform_run_volume },
 };
 
 const nook_extreme_group nook_extreme_transforms = { .name = "transforms", .cases = cases, .count = NOOK_COUNT(cases) };
