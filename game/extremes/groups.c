@@ -3,6 +3,7 @@
 static const nook_extreme_group *const groups[] = {
     &nook_extreme_space,
     &nook_extreme_transforms,
+    &nook_extreme_volumes,
     &nook_extreme_triangles,
     &nook_extreme_memory,
     &nook_extreme_spinning,
