@@ -1,9 +1,11 @@
 #include "modules/ao_reference/reference.h"
 #include "engine/core/jobs.h"
 #include "engine/core/log.h"
-#include "engine/core/vector.h"
+#include "engine/core/surface.h"
 #include "modules/ao/falloff.h"
 #include "modules/ao/sampling.h"
+#include "modules/ao_reference/depth_mesh_internal.h"
+#include "modules/ao_reference/pixel_internal.h"
 #include "modules/ao_reference/tracer_internal.h"
 #include <cglm/cglm.h>
 #include <math.h>
@@ -31,17 +33,6 @@ typedef struct trace_work {
     float *visibility;
 } trace_work;
 
-/** As nook_octahedral_decode of shaders/nook/octahedral.glsl. In double: the sign of z chooses the frame. */
-static void decode_normal(const uint16_t code[2], vec3 out)
-{
-    double x = (code[0] - 32768.0) / 32767.0, y = (code[1] - 32768.0) / 32767.0;
-    double z = 1.0 - fabs(x) - fabs(y), fold = z < 0.0 ? -z : 0.0;
-    double normal[3] = { x + (x >= 0.0 ? -fold : fold), y + (y >= 0.0 ? -fold : fold), z };
-    nook_vector_normalize(normal, normal);
-    for (int axis = 0; axis < 3; axis++)
-        out[axis] = (float)normal[axis];
-}
-
 /**
  * Columns: two tangents and the normal (Duff et al., "Building an Orthonormal Basis, Revisited", 2017). In float: the
  * normal's own steps are 100 times coarser than its rounding, and Embree takes directions in float.
@@ -58,12 +49,11 @@ static void tangent_frame(vec3 n, mat3 frame)
  * Where rays start: the pixel's point, lifted along the normal past the rounding of its depth (24 bits, and as much again in
  * the rasteriser) and of Embree's own arithmetic, which grow with the distance from the camera.
  */
-static void ray_origin(const nook_ao_pass *pass, uint32_t x, uint32_t y, double depth, const float n[3], float out[3])
+static void ray_origin(const nook_ao_pass *pass, uint32_t x, uint32_t y, double depth, const double n[3], float out[3])
 {
-    double ndc_x = 2.0 * (x + 0.5) / pass->width - 1.0, ndc_y = 2.0 * (y + 0.5) / pass->height - 1.0;
-    double p[3] = { (ndc_x * pass->ray_scale[0] + pass->ray_offset[0]) * depth,
-                    (ndc_y * pass->ray_scale[1] + pass->ray_offset[1]) * depth, -depth };
-    double lift = 4e-6 * (fabs(p[0]) + fabs(p[1]) + fabs(p[2]));
+    double p[3];
+    reference_pixel_position(pass, x, y, depth, p);
+    double lift = NOOK_SURFACE_ROUNDING * (fabs(p[0]) + fabs(p[1]) + fabs(p[2]));
     for (int axis = 0; axis < 3; axis++)
         out[axis] = (float)(p[axis] + n[axis] * lift);
 }
@@ -71,11 +61,11 @@ static void ray_origin(const nook_ao_pass *pass, uint32_t x, uint32_t y, double 
 static double trace_pixel(const trace_work *work, uint32_t x, uint32_t y, double depth, const uint16_t code[2])
 {
     const nook_ao_pass *pass = work->pass;
-    vec3 normal, origin;
+    vec3 origin;
     mat3 view_from_local;
-    double sum = 0.0;
-    decode_normal(code, normal);
-    tangent_frame(normal, view_from_local);
+    double normal[3], sum = 0.0;
+    reference_decode_normal(code, normal);
+    tangent_frame((vec3){ (float)normal[0], (float)normal[1], (float)normal[2] }, view_from_local);
     ray_origin(pass, x, y, depth, normal, origin);
     uint32_t h = nook_mix_bits(x + nook_mix_bits(y + nook_mix_bits(pass->seed)));
     float shift_x = (float)(h >> 8) / 16777216.0f, shift_y = (float)(nook_mix_bits(h) >> 8) / 16777216.0f;
@@ -118,15 +108,30 @@ static void trace_image(trace_work *work, unsigned threads)
     }
 }
 
-/** Everything the trace needs in one block: depth, normals, visibility, points. */
-static nook_result trace_with_memory(const nook_ao_pass *pass, const reference_params *params, const tracer *t,
-                                     float *memory)
+enum { SEES_SCENE, SEES_SCREEN }; /* the choices of reference.sees */
+
+static nook_result show_screen(tracer *t, const nook_ao_pass *pass, const float *depth, const uint16_t *normal)
+{
+    depth_mesh mesh;
+    nook_result result = depth_mesh_create(pass, depth, normal, &mesh);
+    if (result != NOOK_OK)
+        return result;
+    result = tracer_update_triangles(t, mesh.positions, mesh.vertex_count, mesh.indices, mesh.index_count);
+    depth_mesh_free(&mesh);
+    return result;
+}
+
+/** Everything the trace needs in one block: depth, visibility, points, normals. */
+static nook_result trace_with_memory(const nook_ao_pass *pass, const reference_params *params, tracer *t, float *memory)
 {
     size_t pixels = (size_t)pass->width * pass->height;
     float *depth = memory, *visibility = depth + pixels, *points = visibility + pixels;
     uint16_t *normal = (uint16_t *)(void *)(points + 2 * (size_t)params->rays);
     nook_texture_read(pass->gpu, pass->depth, GL_RED, GL_FLOAT, depth, pixels * sizeof *depth);
     nook_texture_read(pass->gpu, pass->normal, GL_RG, GL_UNSIGNED_SHORT, normal, pixels * 2 * sizeof *normal);
+    nook_result result = params->sees == SEES_SCREEN ? show_screen(t, pass, depth, normal) : tracer_update(t, pass);
+    if (result != NOOK_OK)
+        return result;
     for (uint32_t i = 0; i < (uint32_t)params->rays; i++)
         nook_sobol_point(i, 0, points + 2 * i);
     trace_work work = { .pass = pass,
@@ -161,14 +166,11 @@ static nook_result record(void *state, const void *params, const nook_ao_pass *p
 {
     reference_state *s = state;
     const reference_params *p = params;
-    nook_result result = tracer_update(s->tracer, pass);
-    if (result != NOOK_OK)
-        return result;
     size_t pixels = (size_t)pass->width * pass->height;
     float *memory = malloc((3 * pixels + 2 * (size_t)p->rays) * sizeof *memory);
     if (!memory)
         return nook_fail(NOOK_E_MEMORY, "reference: no memory for %ux%u pixels", pass->width, pass->height);
-    result = trace_with_memory(pass, p, s->tracer, memory);
+    nook_result result = trace_with_memory(pass, p, s->tracer, memory);
     free(memory);
     return result;
 }

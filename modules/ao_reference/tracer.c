@@ -64,23 +64,38 @@ static RTCScene find_mesh(const tracer *t, uint32_t id)
     return NULL;
 }
 
+/** Robust: no ray slips between two triangles of one edge. */
+static RTCScene new_scene(const tracer *t)
+{
+    RTCScene scene = rtcNewScene(t->device);
+    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+    return scene;
+}
+
+static void put_world(tracer *t, RTCScene world)
+{
+    if (t->world)
+        rtcReleaseScene(t->world);
+    t->world = world;
+}
+
 /** Embree reads 16 bytes at each vertex, so positions get one float of padding: they are copied into its own buffer. */
-static RTCScene build_mesh(const tracer *t, const nook_ao_mesh_view *mesh)
+static RTCScene build_triangles(const tracer *t, const float *positions, uint32_t vertex_count, const uint32_t *indices,
+                                uint32_t index_count)
 {
     RTCGeometry geometry = rtcNewGeometry(t->device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    float *positions = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                               3 * sizeof(float), mesh->vertex_count);
-    uint32_t *indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                                3 * sizeof(uint32_t), mesh->index_count / 3);
-    if (!positions || !indices) {
+    float *vertex_buffer = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                   3 * sizeof(float), vertex_count);
+    uint32_t *index_buffer = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                                     3 * sizeof(uint32_t), index_count / 3);
+    if (!vertex_buffer || !index_buffer) {
         rtcReleaseGeometry(geometry);
         return NULL;
     }
-    memcpy(positions, mesh->positions, (size_t)mesh->vertex_count * 3 * sizeof *positions);
-    memcpy(indices, mesh->indices, (size_t)mesh->index_count * sizeof *indices);
+    memcpy(vertex_buffer, positions, (size_t)vertex_count * 3 * sizeof *positions);
+    memcpy(index_buffer, indices, (size_t)index_count * sizeof *indices);
     rtcCommitGeometry(geometry);
-    RTCScene scene = rtcNewScene(t->device);
-    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST); /* no ray slips between two triangles of one edge */
+    RTCScene scene = new_scene(t);
     rtcAttachGeometry(scene, geometry);
     rtcReleaseGeometry(geometry);
     rtcCommitScene(scene);
@@ -99,7 +114,7 @@ static nook_result add_mesh(tracer *t, const nook_ao_mesh_view *mesh)
         t->meshes = grown;
         t->mesh_capacity = capacity;
     }
-    RTCScene scene = build_mesh(t, mesh);
+    RTCScene scene = build_triangles(t, mesh->positions, mesh->vertex_count, mesh->indices, mesh->index_count);
     if (!scene)
         return nook_fail(NOOK_E_MEMORY, "reference: no memory for %u triangles", mesh->index_count / 3);
     t->meshes[t->mesh_count++] = (traced_mesh){ mesh->id, scene };
@@ -142,16 +157,24 @@ nook_result tracer_update(tracer *t, const nook_ao_pass *pass)
         if (result != NOOK_OK)
             return result;
     }
-    if (t->world)
-        rtcReleaseScene(t->world);
-    t->world = rtcNewScene(t->device);
-    rtcSetSceneFlags(t->world, RTC_SCENE_FLAG_ROBUST);
+    put_world(t, new_scene(t));
     for (uint32_t i = 0; i < pass->instance_count; i++) {
         RTCScene mesh = find_mesh(t, pass->meshes[pass->instances[i].mesh].id);
         if (mesh)
             add_instance(t, mesh, &pass->instances[i].view_from_mesh);
     }
     rtcCommitScene(t->world);
+    return check_device(t);
+}
+
+nook_result tracer_update_triangles(tracer *t, const float *positions, uint32_t vertex_count, const uint32_t *indices,
+                                    uint32_t index_count)
+{
+    RTCScene world = index_count ? build_triangles(t, positions, vertex_count, indices, index_count) : new_scene(t);
+    if (!world)
+        return nook_fail(NOOK_E_MEMORY, "reference: no memory for %u triangles", index_count / 3);
+    rtcCommitScene(world);
+    put_world(t, world);
     return check_device(t);
 }
 

@@ -1,4 +1,4 @@
-/** tracer_internal.h - Embree behind plain data: meshes once, instances every frame. */
+/** tracer_internal.h - Embree behind plain data: meshes once, instances every frame; or triangles of this frame alone. */
 #pragma once
 #include "modules/ao/technique.h"
 
@@ -10,6 +10,10 @@ void tracer_destroy(tracer *t); /**< NULL is allowed. */
 
 /** Builds what changed since the last call: meshes by their id, instances always. @return NOOK_E_MEMORY */
 nook_result tracer_update(tracer *t, const nook_ao_pass *pass);
+
+/** Only these triangles, in view space, until the next of either call; the scene's meshes are kept. @return NOOK_E_MEMORY */
+nook_result tracer_update_triangles(tracer *t, const float *positions, uint32_t vertex_count, const uint32_t *indices,
+                                    uint32_t index_count);
 
 /**
  * Distance of the first triangle along a unit ray, view space. Thread-safe between updates.
