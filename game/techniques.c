@@ -2,6 +2,8 @@
 #include "engine/core/log.h"
 #include "game/suggestion.h"
 #include "modules/ao/nook_ao.h"
+#include "modules/ao_gtao/gtao.h"
+#include "modules/ao_hbao/hbao.h"
 #include "modules/ao_hsao/hsao.h"
 #include "modules/ao_reference/reference.h"
 #include "modules/ao_ssao/ssao.h"
@@ -10,10 +12,8 @@
 #include <string.h>
 
 static const nook_ao_technique *const techniques[] = {
-    &nook_ao_volume_technique,
-    &nook_ao_ssao_technique,
-    &nook_ao_hsao_technique,
-    &nook_ao_reference_technique,
+    &nook_ao_volume_technique, &nook_ao_ssao_technique, &nook_ao_hsao_technique,
+    &nook_ao_hbao_technique,   &nook_ao_gtao_technique, &nook_ao_reference_technique,
 };
 
 const nook_ao_technique *const *nook_techniques(size_t *out_count)

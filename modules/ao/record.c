@@ -210,7 +210,7 @@ static void bind_pass(const nook_ao_pass *pass)
     nook_bind_texture(pass->gpu, 2, pass->volume_atlas);
     nook_bind_storage(pass->gpu, 3, pass->occluders);
     nook_bind_storage(pass->gpu, 7, pass->counter);
-    nook_bind_image(pass->gpu, 0, pass->visibility, GL_WRITE_ONLY);
+    nook_bind_image(pass->gpu, 0, pass->visibility, GL_READ_WRITE);
 }
 
 nook_result nook_ao_record(nook_ao *ao, const nook_ao_frame *frame)

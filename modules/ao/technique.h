@@ -99,6 +99,20 @@ typedef struct nook_ao_technique {
 nook_result nook_ao_pass_dispatch(const nook_ao_pass *pass, const char *shader_path, uint32_t local_x,
                                   uint32_t local_y);
 
+/** Loop turns of one invocation that a dispatch may take: a software driver ends all loops silently after 65535. */
+enum { NOOK_AO_TURNS_PER_DISPATCH = 60000 };
+
+/**
+ * As nook_ao_pass_dispatch, for work that may be too much for one dispatch: a GPU that works for seconds on one is reset, and
+ * llvmpipe ends all loops of an invocation without a word after 65535 turns in sum. The work of a pixel is `count` items. Each
+ * dispatch does items part.x to part.y - 1, part being the shader's `layout(location = 0) uniform ivec2`, and takes their
+ * occlusion off the visibility image, which starts with the dispatch whose part.x is 0: see shaders/ao/screen.glsl.
+ * @param turns_per_item  loop turns of an item, in [1, NOOK_AO_TURNS_PER_DISPATCH]
+ * @return NOOK_E_NOT_FOUND, NOOK_E_DEVICE
+ */
+nook_result nook_ao_pass_dispatch_parts(const nook_ao_pass *pass, const char *shader_path, uint32_t local_x,
+                                        uint32_t local_y, int32_t count, int32_t turns_per_item);
+
 #ifdef __cplusplus
 }
 #endif

@@ -1,40 +1,9 @@
 // Technique "hsao": see modules/ao_hsao/hsao.h. With elevation e above the tangent plane, equation 1 over one azimuth gives
 // A = sin^2(e) for everything below e blocked (cosine weighted; classic HBAO's sin(e) lacks the cosine: erratum C18).
-#include "ao/frame.glsl"
-#include "ao/falloff.glsl"
-#include "ao/counter.glsl"
-#include "nook/octahedral.glsl"
-#include "nook/params.glsl"
-layout(local_size_x = 16, local_size_y = 8) in;
+#include "ao/screen.glsl"
 layout(std140, binding = 1) uniform Params {
 #include "modules/ao_hsao/params.def"
 } params;
-layout(binding = 0) uniform sampler2D depth_texture;
-layout(binding = 1) uniform sampler2D normal_texture;
-layout(binding = 0, r32f) uniform image2D visibility_image;
-// Azimuths x to y - 1: this dispatch's part of the work, see modules/ao_hsao/hsao.c.
-layout(location = 0) uniform ivec2 part;
-
-struct Sample {
-    vec3 position; // of the surface seen there
-    bool seen;
-};
-
-Sample look_at(vec3 point, inout uint fetches)
-{
-    Sample s = Sample(vec3(0.0), false);
-    if (point.z >= 0.0)
-        return s;
-    vec2 at = round(trace_pixel(point)); // close to the eye it may be larger than any int
-    if (!(all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, vec2(frame.size)))))
-        return s;
-    ivec2 q = ivec2(at);
-    float depth = texelFetch(depth_texture, q, 0).r;
-    fetches++;
-    s.position = view_position(q, depth);
-    s.seen = depth > 0.0;
-    return s;
-}
 
 // Below the horizon of one azimuth (`along`, in the tangent plane). out_height: square of the sine of the horizon.
 float below_horizon(vec3 p, vec3 n, vec3 along, float jitter, out float out_height, inout uint fetches)
@@ -72,7 +41,7 @@ float march_above(vec3 p, vec3 n, vec3 d, float jitter, inout uint fetches)
     return 0.0;
 }
 
-// This part's share of A.
+// Items are azimuths.
 float occlusion(ivec2 pixel, vec3 p, vec3 n, inout uint fetches)
 {
     vec3 tangent, bitangent;
@@ -91,20 +60,4 @@ float occlusion(ivec2 pixel, vec3 p, vec3 n, inout uint fetches)
         }
     }
     return sum / float(params.directions);
-}
-
-void main()
-{
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(pixel, frame.size)))
-        return;
-    float depth = texelFetch(depth_texture, pixel, 0).r;
-    float visibility = part.x == 0 ? 1.0 : imageLoad(visibility_image, pixel).r;
-    uint fetches = 0u;
-    if (depth > 0.0) {
-        vec3 normal = nook_octahedral_decode(texelFetch(normal_texture, pixel, 0).xy);
-        visibility = clamp(visibility - occlusion(pixel, view_position(pixel, depth), normal, fetches), 0.0, 1.0);
-    }
-    imageStore(visibility_image, pixel, vec4(visibility));
-    count_fetches(fetches);
 }

@@ -111,7 +111,7 @@ float occlusion_union(bool inside, vec3 position, vec3 normal, ivec2 pixel, inou
 {
     vec3 tangent, bitangent;
     tangent_frame(normal, tangent, bitangent);
-    int block = direction_block(pixel);
+    int block = block_of(pixel);
     float shift = noise(pixel, 1u), sum = 0.0;
     for (int first = part.x; first < part.y; first += BATCH) {
         int batch = min(BATCH, part.y - first);
@@ -147,7 +147,7 @@ float visibility_multiply(bool inside, vec3 position, vec3 normal, ivec2 pixel, 
 {
     vec3 tangent, bitangent;
     tangent_frame(normal, tangent, bitangent);
-    int block = direction_block(pixel);
+    int block = block_of(pixel);
     float shift = noise(pixel, 1u), visibility = 1.0;
     for (int chunk = part.z; chunk < part.w; chunk += CHUNK) {
         tile_list(chunk, part.w);

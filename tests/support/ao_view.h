@@ -1,7 +1,7 @@
 /**
  * ao_view.h - modules/fixture/view.h for tests: with a device of its own, and failing the test when anything fails.
  *
- * Its context knows the techniques volume, ssao, hsao and reference, and "probe": a technique that keeps the depth and the
+ * Its context knows the techniques of game/techniques.c, and "probe": a technique that keeps the depth and the
  * normals it was given and writes what the test paints, so that the stages before and after a technique are tested alone.
  */
 #pragma once
