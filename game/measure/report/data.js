@@ -1,0 +1,101 @@
+// The results: rows, the sites they were measured at, sums over cameras, fronts.
+
+const report = JSON.parse(document.getElementById("results").textContent);
+const rows = report.rows;
+const reference_technique = "reference"; // its rows are truths, not choices
+
+function make_element(name, attributes, ...children) {
+  const element = document.createElement(name);
+  for (const [key, value] of Object.entries(attributes || {})) {
+    if (key.startsWith("on")) element.addEventListener(key.slice(2), value);
+    else if (value === true) element.setAttribute(key, "");
+    else if (value !== false && value !== null) element.setAttribute(key, value);
+  }
+  element.append(...children.filter(child => child !== null));
+  return element;
+}
+
+function unique(values) {
+  return [...new Set(values)];
+}
+
+// What is computed, as against where from: r_max, falloff and size.
+function describe_reach(row) {
+  const part = row.r_max_part > 0 ? ` (${Number(row.r_max_part.toPrecision(3))} of the diagonal)` : "";
+  return `${Number(row.r_max.toPrecision(3))} m${part}, ${row.falloff}, ${row.width} x ${row.height}`;
+}
+
+function reach_key(place) {
+  return [place.r_max, place.falloff, place.width, place.height].join(" ");
+}
+
+for (const [index, row] of rows.entries()) {
+  row.index = index;
+  for (const [column, number] of report.columns.entries())
+    row[number.key] = row.numbers[column] === null ? NaN : row.numbers[column];
+  row.reach = describe_reach(row);
+  row.reach_key = reach_key(row);
+  row.view = row.scene + "\n" + row.reach_key;
+  row.words = [row.setting, row.scene, row.camera, row.reach].join(" ").toLowerCase();
+}
+
+const techniques = unique(rows.map(row => row.technique));
+const site_of = new Map(report.sites.map(site => [[site.scene, reach_key(site), site.camera].join("\n"), site]));
+
+function site_of_row(row) {
+  return site_of.get(row.view + "\n" + row.camera);
+}
+
+// One number for several cameras: their mean, RMS or largest; cameras without one are left out.
+function over_cameras(how, values) {
+  const numbers = values.filter(Number.isFinite);
+  if (numbers.length === 0) return NaN;
+  if (how === "largest") return numbers.reduce((a, b) => Math.max(a, b));
+  if (how === "rms") return Math.sqrt(numbers.reduce((sum, value) => sum + value * value, 0) / numbers.length);
+  return numbers.reduce((sum, value) => sum + value, 0) / numbers.length;
+}
+
+function sum_up(group) {
+  const sum = { ...group[0], camera: group.length === 1 ? group[0].camera : `${group.length} cameras`, picture: "", cameras: group.length };
+  for (const number of report.columns) sum[number.key] = over_cameras(number.over, group.map(row => row[number.key]));
+  return sum;
+}
+
+// The rows of a scene and reach at one camera; "" is all cameras, each setting summed up over them.
+function rows_of_view(scene, reach, camera) {
+  const found = rows.filter(row => row.scene === scene && row.reach_key === reach && (camera === "" || row.camera === camera));
+  if (camera !== "") return found;
+  const groups = new Map();
+  for (const row of found) groups.set(row.setting, [...(groups.get(row.setting) || []), row]);
+  const sums = [...groups.values()].map(sum_up);
+  const most = sums.reduce((cameras, sum) => Math.max(cameras, sum.cameras), 0);
+  return sums.filter(sum => sum.cameras === most); // others would be held against different pictures
+}
+
+// The rows that no other beats in both, from cheap to dear. Of equal ones all stand on it.
+function find_front(candidates, cost_of, error_of) {
+  const points = candidates
+    .filter(row => row.technique !== reference_technique && Number.isFinite(cost_of(row)) && Number.isFinite(error_of(row)))
+    .sort((a, b) => cost_of(a) - cost_of(b) || error_of(a) - error_of(b));
+  const front = [];
+  for (const row of points) {
+    const best = front[front.length - 1];
+    if (!best || error_of(row) < error_of(best) || (error_of(row) === error_of(best) && cost_of(row) === cost_of(best))) front.push(row);
+  }
+  return front;
+}
+
+// row.front for every row: at its own scene, camera and reach, in the chosen error.
+function mark_fronts(error_of) {
+  const places = new Map();
+  for (const row of rows) {
+    const place = row.view + "\n" + row.camera;
+    if (!places.has(place)) places.set(place, []);
+    places.get(place).push(row);
+    row.front = "";
+  }
+  for (const group of places.values()) {
+    for (const row of find_front(group, row => row.ms, error_of)) row.front = "ms";
+    for (const row of find_front(group, row => row.fetches, error_of)) row.front = row.front ? "both" : "fetches";
+  }
+}

@@ -1,0 +1,279 @@
+#include "engine/core/file.h"
+#include "engine/core/log.h"
+#include "game/measure/report.h"
+#include "game/measure/summary.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define BEGIN_LINE "<!-- measured: begin -->"
+#define END_LINE "<!-- measured: end -->"
+
+/* ---- text ---- */
+
+/* A cell of a table: what would end it or start markup is escaped. */
+static void put_cell(FILE *out, const char *text)
+{
+    for (; *text; text++) {
+        if (strchr("|\\`*_<>[]&", *text))
+            fputc('\\', out);
+        fputc(*text == '\n' ? ' ' : *text, out);
+    }
+}
+
+/* As code, which keeps the setting as one types it. */
+static void put_setting(FILE *out, const char *text)
+{
+    fputc('`', out);
+    for (; *text; text++)
+        fputc(*text == '`' || *text == '|' || *text == '\n' ? ' ' : *text, out);
+    fputc('`', out);
+}
+
+/* " 0.0123 |", and " - |" where there is no number. @param format  of one double */
+__attribute__((format(printf, 2, 0))) static void put_number(FILE *out, const char *format, double value)
+{
+    fputc(' ', out);
+    if (isnan(value))
+        fputc('-', out);
+    else
+        fprintf(out, format, value);
+    fputs(" |", out);
+}
+
+/* ---- head ---- */
+
+/* The texts of one kind, each once, with commas. */
+static void put_distinct(FILE *out, const nook_results *results, const char *(*text_of)(const nook_result_row *))
+{
+    bool first = true;
+    for (size_t i = 0; i < results->row_count; i++) {
+        const char *text = text_of(&results->rows[i]);
+        bool seen = false;
+        for (size_t j = 0; j < i && !seen; j++)
+            seen = strcmp(text_of(&results->rows[j]), text) == 0;
+        if (seen)
+            continue;
+        fputs(first ? "" : ", ", out);
+        put_cell(out, text);
+        first = false;
+    }
+}
+
+static const char *machine_of(const nook_result_row *row)
+{
+    return row->machine;
+}
+
+static const char *build_of(const nook_result_row *row)
+{
+    return row->build;
+}
+
+static void put_dates(FILE *out, const nook_results *results)
+{
+    const char *first = results->rows[0].date, *last = first;
+    for (size_t i = 1; i < results->row_count; i++) {
+        const char *date = results->rows[i].date;
+        first = strcmp(date, first) < 0 ? date : first;
+        last = strcmp(date, last) > 0 ? date : last;
+    }
+    fprintf(out, "%.10s", first);
+    if (strncmp(first, last, 10) != 0)
+        fprintf(out, " to %.10s", last);
+}
+
+static void put_head(FILE *out, const nook_results *results, const char *command)
+{
+    fputs("Machine: ", out);
+    put_distinct(out, results, machine_of);
+    fputs(". Build: ", out);
+    put_distinct(out, results, build_of);
+    fputs(". Measured ", out);
+    put_dates(out, results);
+    fprintf(out, "; %zu results. Command:\n\n    %s\n\n", results->row_count, command);
+    fputs("Numbers stand for all cameras of the scene: ms, fetches, bias and SSIM are means; RMSE, against the depth "
+          "buffer's "
+          "own\ngeometry (screen), inside and outside of silhouettes and away from them, noise, flicker and "
+          "instability are "
+          "roots of mean\nsquares; p99, max, memory and bake time are those of the worst camera. What each is: "
+          "[measuring.md](measuring.md#the-report).\n",
+          out);
+}
+
+/* ---- tables ---- */
+
+static void put_heading(FILE *out, const nook_summary_view *view)
+{
+    const nook_result_row *row = view->rows[0].row;
+    fputs("\n### ", out);
+    put_cell(out, row->scene);
+    fprintf(out, ", r\\_max %.3g m", row->r_max);
+    if (row->r_max_part > 0.0)
+        fprintf(out, " (%.3g of the diagonal)", row->r_max_part);
+    fprintf(out, ", %s, %u x %u, %u camera%s\n\n", row->falloff, row->width, row->height, view->cameras,
+            view->cameras == 1 ? "" : "s");
+    if (!isnan(view->largest_noise) && view->smallest_rmse > 0.0)
+        fprintf(out, "Noise of the truth: at most %.2g, %.0f %% of the smallest RMSE (%.4f).\n\n", view->largest_noise,
+                100.0 * view->largest_noise / view->smallest_rmse, view->smallest_rmse);
+}
+
+static void put_initial_row(FILE *out, const nook_summary_row *row)
+{
+    const nook_sample *sample = &row->sample;
+    fputs("| ", out);
+    put_setting(out, row->row->setting);
+    fputs(" |", out);
+    put_number(out, "%.3g", sample->ms_median);
+    put_number(out, "%.0f", sample->fetches);
+    put_number(out, "%.4f", sample->truth.rmse);
+    put_number(out, "%+.4f", sample->truth.bias);
+    put_number(out, "%.3f", sample->truth.p99);
+    put_number(out, "%.3f", sample->truth.max);
+    put_number(out, "%.3f", sample->ssim);
+    put_number(out, "%.4f", sample->screen.rmse);
+    put_number(out, "%.4f", sample->rmse_inside);
+    put_number(out, "%.4f", sample->rmse_outside);
+    put_number(out, "%.4f", sample->rmse_away);
+    put_number(out, "%.4f", sample->noise);
+    put_number(out, "%.4f", sample->flicker);
+    put_number(out, "%.4f", sample->instability.rms);
+    put_number(out, "%.2f", sample->volume_bytes / (1024.0 * 1024.0));
+    put_number(out, "%.2f", sample->texture_bytes / (1024.0 * 1024.0));
+    put_number(out, "%.2f", sample->bake_ms / 1000.0);
+    fputc('\n', out);
+}
+
+static void put_initial_table(FILE *out, const nook_summary_view *view)
+{
+    fputs("Every technique as it comes, and the truths:\n\n"
+          "| technique | ms | fetches | RMSE | bias | p99 | max | SSIM | screen | inside | outside | away | noise | "
+          "flicker "
+          "| instability | volumes MiB | textures MiB | bake s |\n"
+          "|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n",
+          out);
+    for (size_t i = 0; i < view->row_count; i++) {
+        const nook_summary_row *row = &view->rows[i];
+        if (row->row->initial || strcmp(row->row->technique, NOOK_SUMMARY_REFERENCE) == 0)
+            put_initial_row(out, row);
+    }
+}
+
+static int compare_ms(const void *a, const void *b)
+{
+    const nook_summary_row *const *first = a, *const *second = b;
+    double x = (*first)->sample.ms_median, y = (*second)->sample.ms_median;
+    return (x > y) - (x < y);
+}
+
+static void put_front_row(FILE *out, const nook_summary_row *row)
+{
+    const nook_sample *sample = &row->sample;
+    fputs("|", out);
+    put_number(out, "%.3g", sample->ms_median);
+    put_number(out, "%.0f", sample->fetches);
+    put_number(out, "%.4f", sample->truth.rmse);
+    put_number(out, "%+.4f", sample->truth.bias);
+    put_number(out, "%.3f", sample->truth.p99);
+    put_number(out, "%.3f", sample->ssim);
+    fputc(' ', out);
+    put_setting(out, row->row->setting);
+    fputs(row->row->initial ? " as it comes |\n" : " |\n", out);
+}
+
+static nook_result put_front_table(FILE *out, const nook_summary_view *view)
+{
+    const nook_summary_row **front = malloc(view->row_count * sizeof *front);
+    size_t count = 0;
+    if (!front)
+        return nook_fail(NOOK_E_MEMORY, "no memory for the front of %zu settings", view->row_count);
+    for (size_t i = 0; i < view->row_count; i++) {
+        if (view->rows[i].on_front)
+            front[count++] = &view->rows[i];
+    }
+    qsort(front, count, sizeof *front, compare_ms);
+    fprintf(out,
+            "\nThe front: of %zu settings, the %zu that no other beats in both time and RMSE:\n\n"
+            "| ms | fetches | RMSE | bias | p99 | SSIM | setting |\n|---:|---:|---:|---:|---:|---:|---|\n",
+            view->row_count, count);
+    for (size_t i = 0; i < count; i++)
+        put_front_row(out, front[i]);
+    free(front);
+    return NOOK_OK;
+}
+
+static nook_result put_views(FILE *out, const nook_results *results)
+{
+    nook_summary summary;
+    nook_result result = nook_summary_create(results, &summary);
+    if (result != NOOK_OK)
+        return result;
+    for (size_t i = 0; i < summary.view_count && result == NOOK_OK; i++) {
+        put_heading(out, &summary.views[i]);
+        put_initial_table(out, &summary.views[i]);
+        result = put_front_table(out, &summary.views[i]);
+    }
+    nook_summary_free(&summary);
+    return result;
+}
+
+/* ---- the document ---- */
+
+/* Where a line that is exactly `line` starts, from `text` on. */
+static const char *find_line(const char *text, const char *line)
+{
+    size_t length = strlen(line);
+    while (text) {
+        if (strncmp(text, line, length) == 0 && strchr("\r\n", text[length]))
+            return text;
+        text = strchr(text, '\n');
+        text = text ? text + 1 : NULL;
+    }
+    return NULL;
+}
+
+static nook_result put_document(FILE *out, const char *old, const char *path, const nook_results *results,
+                                const char *command)
+{
+    const char *begin = find_line(old, BEGIN_LINE), *end = begin ? find_line(begin, END_LINE) : NULL;
+    if (!end)
+        return nook_fail(NOOK_E_FORMAT,
+                         "%s: has no lines '" BEGIN_LINE "' and '" END_LINE "'; the tables go between them", path);
+    fwrite(old, 1, (size_t)(begin - old), out);
+    fputs(BEGIN_LINE "\n\n", out);
+    nook_result result = NOOK_OK;
+    if (results->row_count) {
+        put_head(out, results, command);
+        result = put_views(out, results);
+    } else {
+        fputs("Nothing has been measured.\n", out);
+    }
+    fprintf(out, "\n%s", end);
+    return result;
+}
+
+nook_result nook_report_document_write(const nook_results *results, const char *command, const char *path)
+{
+    nook_file old;
+    char *text = NULL;
+    size_t size = 0;
+    nook_result result = nook_file_read(path, &old);
+    if (result != NOOK_OK)
+        return result;
+    FILE *out = open_memstream(&text, &size);
+    if (out) {
+        result = put_document(out, (const char *)old.bytes, path, results, command);
+        bool failed = ferror(out) != 0;
+        failed |= fclose(out) != 0;
+        if (failed && result == NOOK_OK)
+            result = nook_fail(NOOK_E_MEMORY, "%s: no memory for the tables", path);
+    } else {
+        result = nook_fail(NOOK_E_MEMORY, "%s: no memory for the tables", path);
+    }
+    if (result == NOOK_OK)
+        result = nook_file_write(path, text, size);
+    free(text);
+    nook_file_free(&old);
+    return result;
+}
