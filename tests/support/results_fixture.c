@@ -91,7 +91,7 @@ static nook_errors make_errors(double rmse, double bias)
 
 static nook_sample make_sample(uint32_t technique, uint32_t setting, uint32_t camera, uint32_t scene)
 {
-    double effort = pow(1.35, setting) * (0.9 + 0.2 * unit_noise(setting * 31u + technique)); /* of the setting */
+    double effort = (1.0 + 0.7 * setting) * (0.9 + 0.2 * unit_noise(setting * 31u + technique)); /* of the setting */
     double floor = 0.012 + 0.035 * technique,
            rmse = hypot(floor, 0.06 / sqrt(effort)) * (1.0 + 0.15 * camera + 0.1 * scene);
     double ms = (technique == 0 ? 9.0 : 3.0) * effort, bias = (technique == 0 ? -0.2 : 0.7) * floor;

@@ -10,10 +10,6 @@ const signs = [ // paths around 0, 0, of about equal area; colours go with them 
   "M0,-5.5L5.2,-1.7L3.2,4.5H-3.2L-5.2,-1.7Z",
 ];
 
-function technique_index(technique) {
-  return techniques.indexOf(technique) % signs.length;
-}
-
 function make_svg(svg, name, attributes, ...children) {
   const element = document.createElementNS(svg.namespaceURI, name);
   for (const [key, value] of Object.entries(attributes || {})) element.setAttribute(key, value);
@@ -22,7 +18,7 @@ function make_svg(svg, name, attributes, ...children) {
 }
 
 function make_sign(svg, technique, attributes) {
-  const index = technique_index(technique);
+  const index = technique_index(technique) % signs.length;
   return make_svg(svg, "path", { d: signs[index], ...attributes, class: `sign technique_${index} ${attributes.class || ""}` });
 }
 
@@ -53,7 +49,8 @@ function list_ticks(scale) {
   const ticks = [];
   if (scale.log) {
     const steps = scale.last - scale.first > 3 ? [1] : scale.last - scale.first > 1.2 ? [1, 3] : [1, 2, 3, 5, 7];
-    for (let decade = Math.floor(scale.first); decade <= scale.last; decade++)
+    const every = Math.max(1, Math.ceil((scale.last - scale.first) / 6));
+    for (let decade = Math.floor(scale.first); decade <= scale.last; decade += every)
       for (const step of steps) ticks.push(step * Math.pow(10, decade));
     return ticks.filter(tick => Math.log10(tick) >= scale.first && Math.log10(tick) <= scale.last);
   }
@@ -103,7 +100,7 @@ function draw_limit(chart, limit) {
   const place = chart.y.place(limit);
   if (place < chart.box.top) return;
   chart.svg.append(make_svg(chart.svg, "line", { class: "limit", x1: chart.box.left, x2: chart.box.right, y1: place, y2: place }),
-    make_svg(chart.svg, "text", { class: "limit_label", x: chart.box.right, y: place - 4, "text-anchor": "end" }, "all that the depth buffer holds"));
+    make_svg(chart.svg, "text", { class: "limit_label", x: chart.box.right, y: place - 4, "text-anchor": "end" }, "perfect, but sees only the depth buffer"));
 }
 
 function draw_points(chart, pinned) {
@@ -139,9 +136,9 @@ function draw_chart(svg, options) {
     return chart;
   }
   draw_axes(chart);
-  draw_limit(chart, options.limit);
   draw_front(chart, find_front(shown, cost_of, error_of));
   draw_points(chart, options.pinned);
+  draw_limit(chart, options.limit);
   chart.pointer = make_svg(svg, "circle", { class: "pointer", r: 13, visibility: "hidden" });
   svg.append(chart.pointer);
   return chart;

@@ -1,6 +1,7 @@
 // What each number is: its name, how it is printed, and its definition. The keys are those of game/measure/sample_columns.c.
 
 const column_groups = [
+  { key: "what", label: "Setting", always: true },
   { key: "place", label: "Where", always: true },
   { key: "cost", label: "Cost" },
   { key: "truth", label: "Error against the truth" },
@@ -18,14 +19,14 @@ const seconds = value => (value / 1000).toFixed(2);
 
 // of: how bad a value is, where the sign or the direction must go; text: sorted and shown as it is.
 const columns = [
-  { key: "setting", group: "place", label: "setting", text: true,
+  { key: "setting", group: "what", label: "setting", text: true,
     about: "Technique and every parameter that is not at its initial value. A technique alone is as it comes." },
-  { key: "front", group: "place", label: "front", text: true,
+  { key: "front", group: "what", label: "front", text: true,
     about: "Whether the row stands on the front of its scene, camera and reach: no other setting is at most as dear and at most as wrong in the chosen error. Dear in ms, in fetches, or in both." },
-  { key: "scene", group: "place", label: "scene", text: true, about: "The file's name." },
+  { key: "scene", group: "place", label: "scene", text: true, about: "The file's name. Columns of this group stand only where the rows differ in them." },
   { key: "camera", group: "place", label: "camera", text: true, about: "The camera's name." },
-  { key: "reach", group: "place", label: "reach", text: true,
-    about: "r_max: how far occlusion reaches, in metres and as a part of the scene's diagonal; how it falls off with distance; the picture's size." },
+  { key: "short_reach", group: "place", label: "reach", text: true,
+    about: "r_max: how far occlusion reaches, in metres and as a part of the scene's diagonal; where they differ also how it falls off with distance, and the picture's size." },
   { key: "ms", group: "cost", label: "ms", format: three_digits,
     about: "Median time of one whole pass (prepare, trace, filter, upscale), milliseconds on the wall clock around glFinish." },
   { key: "ms_min", group: "cost", label: "min", format: three_digits, about: "The fastest of the timed passes, ms." },

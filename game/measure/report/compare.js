@@ -212,6 +212,7 @@ function draw_compare(site, site_rows, pinned, unpin) {
   compare.rows = site_rows;
   compare.pinned = pinned;
   compare.sources = list_sources(site, site_rows);
+  by_id("pictures_of").textContent = site && compare.sources.length ? `Pictures of ${site.camera}, ${site.width} x ${site.height}.` : "";
   by_id("viewer").hidden = compare.sources.length === 0;
   by_id("no_pictures").hidden = compare.sources.length > 0;
   const first = compare.sources.length ? compare.sources[0].key : "";

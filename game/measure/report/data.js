@@ -19,11 +19,21 @@ function unique(values) {
   return [...new Set(values)];
 }
 
+function describe_r_max(row) {
+  const part = row.r_max_part > 0 ? ` (${Number(row.r_max_part.toPrecision(3))} of the diagonal)` : "";
+  return `${Number(row.r_max.toPrecision(3))} m${part}`;
+}
+
+function describe_size(row) {
+  return `${row.width} x ${row.height}`;
+}
+
 // What is computed, as against where from: r_max, falloff and size.
 function describe_reach(row) {
-  const part = row.r_max_part > 0 ? ` (${Number(row.r_max_part.toPrecision(3))} of the diagonal)` : "";
-  return `${Number(row.r_max.toPrecision(3))} m${part}, ${row.falloff}, ${row.width} x ${row.height}`;
+  return [describe_r_max(row), row.falloff, describe_size(row)].join(", ");
 }
+
+const many_falloffs = unique(rows.map(row => row.falloff)).length > 1, many_sizes = unique(rows.map(describe_size)).length > 1;
 
 function reach_key(place) {
   return [place.r_max, place.falloff, place.width, place.height].join(" ");
@@ -34,12 +44,21 @@ for (const [index, row] of rows.entries()) {
   for (const [column, number] of report.columns.entries())
     row[number.key] = row.numbers[column] === null ? NaN : row.numbers[column];
   row.reach = describe_reach(row);
+  row.short_reach = [describe_r_max(row), ...(many_falloffs ? [row.falloff] : []), ...(many_sizes ? [describe_size(row)] : [])].join(", ");
   row.reach_key = reach_key(row);
   row.view = row.scene + "\n" + row.reach_key;
   row.words = [row.setting, row.scene, row.camera, row.reach].join(" ").toLowerCase();
 }
 
-const techniques = unique(rows.map(row => row.technique));
+// Nook's own first and always in this order, so that signs and colours are the same in every report.
+const familiar_techniques = ["volume", "gtao", "hbao", "ssao", "hsao"];
+const techniques = unique([...familiar_techniques, ...rows.map(row => row.technique)]).filter(technique => rows.some(row => row.technique === technique));
+
+function technique_index(technique) {
+  const index = familiar_techniques.indexOf(technique);
+  return index >= 0 ? index : familiar_techniques.length + techniques.filter(other => !familiar_techniques.includes(other)).indexOf(technique);
+}
+
 const site_of = new Map(report.sites.map(site => [[site.scene, reach_key(site), site.camera].join("\n"), site]));
 
 function site_of_row(row) {

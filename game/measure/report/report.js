@@ -26,7 +26,7 @@ function fill_choices() {
   choice.scene = fill_select("scene", unique(rows.map(row => row.scene)).map(scene => [scene, scene]), choice.scene);
   const of_scene = rows.filter(row => row.scene === choice.scene);
   const cameras = unique(of_scene.map(row => row.camera));
-  const all = cameras.length > 1 ? [["", `all ${cameras.length} together`]] : [];
+  const all = cameras.length > 1 ? [["", `all ${cameras.length} cameras`]] : [];
   choice.camera = fill_select("camera", [...cameras.map(camera => [camera, camera]), ...all], choice.camera);
   const of_camera = of_scene.filter(row => choice.camera === "" || row.camera === choice.camera);
   const reaches = new Map(of_camera.map(row => [row.reach_key, row.reach]));

@@ -2,10 +2,12 @@
 
 const table_piece = 120; // rows drawn at a time; more come when the end is scrolled to
 
-const table_view = { sorted_by: null, descending: false, groups: new Set(column_groups.map(group => group.key)), rows: [], drawn: 0 };
+const table_view = { sorted_by: null, descending: false, groups: new Set(column_groups.map(group => group.key)), shown: [], rows: [], drawn: 0 };
+
+const text_order = new Intl.Collator("en", { numeric: true }); // rays=8 before rays=16
 
 function compare_cells(column, a, b) {
-  if (column.text) return String(a[column.key]).localeCompare(String(b[column.key]), undefined, { numeric: true });
+  if (column.text) return text_order.compare(a[column.key], b[column.key]);
   return a[column.key] - b[column.key];
 }
 
@@ -28,8 +30,10 @@ function filter_rows(choice) {
     words.every(word => row.words.includes(word)));
 }
 
-function shown_columns() {
-  return columns.filter(column => table_view.groups.has(column.group));
+// Those of the chosen groups; of the places only what the rows differ in.
+function shown_columns(found) {
+  return columns.filter(column => table_view.groups.has(column.group) &&
+    (column.group !== "place" || found.some(row => row[column.key] !== found[0][column.key])));
 }
 
 function make_header_cell(column, sort) {
@@ -39,8 +43,7 @@ function make_header_cell(column, sort) {
     make_element("button", { type: "button", "aria-describedby": "about_" + column.key, onclick: () => sort(column.key) }, column.label));
 }
 
-function make_header(sort) {
-  const shown = shown_columns();
+function make_header(shown, sort) {
   const groups = column_groups.filter(group => shown.some(column => column.group === group.key))
     .map(group => make_element("th", { colspan: shown.filter(column => column.group === group.key).length, scope: "colgroup" }, group.label));
   return make_element("thead", {}, make_element("tr", { class: "groups" }, ...groups),
@@ -58,9 +61,8 @@ function make_table_row(row, shown, go) {
 }
 
 function draw_more_rows(go) {
-  const shown = shown_columns();
   const piece = table_view.rows.slice(table_view.drawn, table_view.drawn + table_piece);
-  document.querySelector("#table tbody").append(...piece.map(row => make_table_row(row, shown, go)));
+  document.querySelector("#table tbody").append(...piece.map(row => make_table_row(row, table_view.shown, go)));
   table_view.drawn += piece.length;
 }
 
@@ -74,9 +76,10 @@ function draw_table(choice, go) {
   };
   const found = filter_rows(choice);
   table_view.rows = sort_rows(found);
+  table_view.shown = shown_columns(found);
   table_view.drawn = 0;
   document.getElementById("table_count").textContent = `${found.length} of ${rows.length} rows`;
-  document.getElementById("table").replaceChildren(make_header(sort), make_element("tbody", {}));
+  document.getElementById("table").replaceChildren(make_header(table_view.shown, sort), make_element("tbody", {}));
   draw_more_rows(go);
 }
 
