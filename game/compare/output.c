@@ -1,47 +1,14 @@
 #include "game/compare/output.h"
 #include "engine/core/file.h"
 #include "engine/core/log.h"
+#include "game/interrupt.h"
 #include <dirent.h>
 #include <errno.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-/* ---- Signals, which can only be told to something global -------------------------------------------------------- */
-
-static const int signals[] = { SIGINT, SIGTERM };
-static struct sigaction signals_before[NOOK_COUNT(signals)];
-static volatile sig_atomic_t signal_caught;
-
-static void remember_signal(int number)
-{
-    signal_caught = number;
-}
-
-static void hold_signals(void)
-{
-    struct sigaction action = { .sa_handler = remember_signal, .sa_flags = SA_RESTART };
-    sigemptyset(&action.sa_mask);
-    signal_caught = 0;
-    for (size_t i = 0; i < NOOK_COUNT(signals); i++)
-        sigaction(signals[i], &action, &signals_before[i]);
-}
-
-static void release_signals(void)
-{
-    for (size_t i = 0; i < NOOK_COUNT(signals); i++)
-        sigaction(signals[i], &signals_before[i], NULL);
-    if (signal_caught)
-        raise(signal_caught);
-}
-
-bool nook_output_interrupted(void)
-{
-    return signal_caught != 0;
-}
 
 /* ---- Folders ---------------------------------------------------------------------------------------------------- */
 
@@ -79,6 +46,11 @@ const char *nook_output_path(const nook_output *output, const char *name, char o
     return nook_path_join(out, NOOK_OUTPUT_PATH_MAX, output->staging, name);
 }
 
+bool nook_output_interrupted(void)
+{
+    return nook_interrupt_asked();
+}
+
 nook_result nook_output_prepare(const char *folder)
 {
     char probe[NOOK_OUTPUT_PATH_MAX];
@@ -102,7 +74,7 @@ nook_result nook_output_open(const char *folder, nook_output *out_output)
     nook_result result = nook_directory_make(output.staging);
     if (result != NOOK_OK)
         return result;
-    hold_signals();
+    nook_interrupt_hold();
     *out_output = output;
     return NOOK_OK;
 }
@@ -187,5 +159,5 @@ void nook_output_discard(nook_output *output)
     visit_folder(output, output->staging, remove_staged, NULL);
     rmdir(output->staging);
     *output = (nook_output){ .folder = "" };
-    release_signals();
+    nook_interrupt_release();
 }

@@ -50,5 +50,13 @@ typedef struct nook_results {
 nook_result nook_results_read(const char *folder, nook_results *out_results);
 void nook_results_free(nook_results *results); /**< Zeroed ones are allowed. */
 
+/** A row of the same scene content, camera, size, r_max, falloff and setting, whatever measured it; or NULL. */
+const nook_result_row *nook_results_find(const nook_results *results, const nook_result_row *like);
+const nook_result_site *nook_results_find_site(const nook_results *results, const nook_result_site *like);
+
+/** Adds a row, in the place of one that find would give. @param row  its texts are copied @return NOOK_E_MEMORY */
+nook_result nook_results_put(nook_results *results, const nook_result_row *row);
+nook_result nook_results_put_site(nook_results *results, const nook_result_site *site);
+
 /** Writes measure.csv and measure.json, each whole. @param command  the command line, for the record */
 nook_result nook_results_write(const nook_results *results, const char *folder, const char *command);

@@ -111,3 +111,8 @@ double nook_site_noise(const nook_site *site)
 {
     return site->truth.noise;
 }
+
+uint32_t nook_site_rays(const nook_site *site)
+{
+    return site->truth.rays;
+}

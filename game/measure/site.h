@@ -26,10 +26,11 @@ typedef struct nook_site_desc {
 
 /** What of a sample is wanted; the rest is NaN. Errors against the truth and fetches are always there. */
 enum {
-    NOOK_MEASURE_TIME = 1,       /**< ms. */
-    NOOK_MEASURE_SCREEN = 2,     /**< Errors against what the depth buffer holds. */
-    NOOK_MEASURE_STEADINESS = 4, /**< Instability, noise, flicker. */
-    NOOK_MEASURE_PICTURE = 8,    /**< The visibility is handed out. */
+    NOOK_MEASURE_TIME = 1,   /**< ms. */
+    NOOK_MEASURE_SCREEN = 2, /**< Errors against what the depth buffer holds. */
+    NOOK_MEASURE_STEADINESS =
+        4,                    /**< Instability, noise, flicker; not of exact techniques, whose frames take seconds. */
+    NOOK_MEASURE_PICTURE = 8, /**< The visibility is handed out. */
     NOOK_MEASURE_ALL = 15
 };
 
@@ -75,3 +76,4 @@ const float *nook_site_screen_truth(const nook_site *site);
 const uint8_t *nook_site_geometry(const nook_site *site);
 /** Root mean square of the truth's own noise. */
 double nook_site_noise(const nook_site *site);
+uint32_t nook_site_rays(const nook_site *site); /**< Of the truth, per pixel. */

@@ -1,3 +1,4 @@
+#include "engine/core/clock.h"
 #include "game/compare/frame_times.h"
 #include "game/compare/run.h"
 #include "game/measure/site_internal.h"
@@ -8,7 +9,7 @@
 #include <assert.h>
 #include <math.h>
 
-enum { FRAMES = 5, BUDGET_MS = 1000, SEEDS = 3 };
+enum { FRAMES_MIN = 3, FRAMES_MAX = 9, TIMING_MS = 400, SEEDS = 2 };
 
 /* Of an error, what the truth's own noise may be: in quadrature a quarter adds 3 % to it. */
 static const double noise_part = 0.25;
@@ -66,15 +67,26 @@ static nook_result count(nook_site *site, const nook_ao_technique *technique, no
     return nook_ao_set_param(ao, "ao.count", 0.0);
 }
 
-/* The last of them is the picture that is measured. */
+/* As many frames as fit, told from the one that warms up: without counting it is another program. */
+static nook_result warm_up(nook_site *site, uint32_t *out_frames)
+{
+    nook_gpu_finish(site->stage->gpu);
+    double start = nook_clock_ms();
+    nook_result result = nook_stage_occlude(site->stage);
+    nook_gpu_finish(site->stage->gpu);
+    double frames = TIMING_MS / fmax(nook_clock_ms() - start, 1e-3);
+    *out_frames = (uint32_t)fmin(fmax(frames, FRAMES_MIN), FRAMES_MAX);
+    return result;
+}
+
+/* The last frame is the picture that is measured. */
 static nook_result time_frames(nook_site *site, const nook_ao_technique *technique, nook_sample *sample)
 {
     nook_frame_times times;
-    nook_result result = NOOK_OK;
-    if (!technique->exact)
-        result = nook_stage_occlude(site->stage); /* warms up: without counting it is another program */
+    uint32_t frames = 1;
+    nook_result result = technique->exact ? NOOK_OK : warm_up(site, &frames);
     if (result == NOOK_OK)
-        result = nook_frame_times_measure(site->stage, technique->exact ? 1 : FRAMES, BUDGET_MS, &times);
+        result = nook_frame_times_measure(site->stage, frames, INFINITY, &times);
     if (result != NOOK_OK)
         return result;
     sample->ms_median = times.median;
@@ -215,7 +227,7 @@ static nook_result measure_picture(nook_site *site, const nook_setting *setting,
                                    const nook_grey *picture, nook_sample *sample)
 {
     nook_result result = NOOK_OK;
-    if (what & NOOK_MEASURE_STEADINESS)
+    if (what & NOOK_MEASURE_STEADINESS && !setting->technique->exact) /* whose frames take seconds */
         result = measure_steadiness(site, picture, sample);
     return result == NOOK_OK ? measure_errors(site, setting, what, picture, sample) : result;
 }

@@ -2,6 +2,7 @@
 #include "engine/core/file.h"
 #include "engine/core/log.h"
 #include "game/compare/run.h"
+#include "game/interrupt.h"
 #include "game/measure/truth_file.h"
 #include "game/stage.h"
 #include "modules/measure/noise.h"
@@ -13,7 +14,7 @@
 #include <xxhash.h>
 
 enum {
-    BATCH_RAYS = 256,        /* one net of the Sobol points: the more of it, the fewer rays for the same noise */
+    BATCH_RAYS = 128,        /* one net of the Sobol points: the more of it, the fewer rays for the same noise */
     FIRST_SEED = 0x10000000, /* no frame of a measured technique has it: the reference is measured as well */
 };
 
@@ -106,9 +107,8 @@ static nook_result choose_reference(const nook_truth *truth, nook_stage *stage)
     nook_result result = nook_ao_set_technique(stage->ao, "reference");
     if (result == NOOK_OK)
         result = nook_ao_set_param(stage->ao, "reference.rays", truth->batch_rays);
-    if (result == NOOK_OK && truth->screen)
-        result = nook_ao_parse_param(stage->ao, "reference.sees", "screen");
-    return result;
+    return result == NOOK_OK ? nook_ao_parse_param(stage->ao, "reference.sees", truth->screen ? "screen" : "scene")
+                             : result;
 }
 
 static nook_result trace_batch(nook_truth *truth, nook_stage *stage)
@@ -145,7 +145,8 @@ static nook_result trace_to(nook_truth *truth, nook_stage *stage, uint32_t batch
 {
     uint32_t before = truth->batches;
     nook_result result = NOOK_OK;
-    while (truth->batches < batches && result == NOOK_OK) {
+    /* Told to end it stops as soon as the halves are equal again; what there is by then is kept. */
+    while (truth->batches < batches && result == NOOK_OK && (truth->batches % 2 != 0 || !nook_interrupt_asked())) {
         result = trace_batch(truth, stage);
         nook_progress_update(progress, (double)(truth->batches - before) / (batches - before));
     }
@@ -163,7 +164,8 @@ nook_result nook_truth_refine(nook_truth *truth, nook_stage *stage, double noise
     nook_progress progress = nook_progress_begin(truth->screen ? "tracing what the screen holds" : "tracing the truth");
     nook_result result = NOOK_OK;
     stage->progress = NULL;
-    while (truth->noise > noise && plan_batches(truth, noise) > truth->batches && result == NOOK_OK) {
+    while (truth->noise > noise && plan_batches(truth, noise) > truth->batches && result == NOOK_OK &&
+           !nook_interrupt_asked()) {
         result = choose_reference(truth, stage);
         if (result == NOOK_OK)
             result = trace_to(truth, stage, plan_batches(truth, noise), &progress);

@@ -50,7 +50,7 @@ nook_result nook_truth_open(struct nook_stage *stage, const nook_truth_desc *des
 void nook_truth_close(nook_truth *truth); /**< Zeroed ones are allowed. */
 
 /**
- * Traces until the noise is at most `noise`, or rays_max are taken, and keeps what was traced. The stage's frame must be the
+ * Traces until the noise is at most `noise`, rays_max are taken or nook_interrupt_asked, and keeps what was traced. The stage's frame must be the
  * view's; its technique is the reference afterwards, and its frame_index as it was.
  * @return why tracing failed: close the truth then
  */

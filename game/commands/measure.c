@@ -1,0 +1,152 @@
+#include "engine/core/log.h"
+#include "game/commands/commands.h"
+#include "game/interrupt.h"
+#include "game/measure/measure_merge.h"
+#include "game/measure/measure_options.h"
+#include "game/measure/measure_origin.h"
+#include "game/measure/measure_run.h"
+#include "game/measure/measure_verdict.h"
+#include "game/measure/report.h"
+#include <stdio.h>
+#include <string.h>
+
+enum { COMMAND_CAPACITY = 2048 };
+
+/* The command line as a shell takes it. */
+static const char *join_command(int argc, char **argv, char out[COMMAND_CAPACITY])
+{
+    size_t used = (size_t)snprintf(out, COMMAND_CAPACITY, "./nook");
+    for (int i = 0; i < argc && used < COMMAND_CAPACITY; i++) {
+        const char *quote = strpbrk(argv[i], " \t'\"$&|;<>()*?[]#~\\`!") ? "'" : "";
+        used += (size_t)snprintf(out + used, COMMAND_CAPACITY - used, " %s%s%s", quote, argv[i], quote);
+    }
+    return out;
+}
+
+static nook_result list_scenes(const nook_measure_options *options, nook_scene_list *out_scenes)
+{
+    nook_result result = NOOK_OK;
+    *out_scenes = (nook_scene_list){ 0 };
+    for (int i = 0; i < options->scene_count && result == NOOK_OK; i++)
+        result = nook_scene_list_add(out_scenes, options->scenes[i]);
+    if (result == NOOK_OK && options->scene_folder)
+        result = nook_scene_list_add_folder(out_scenes, options->scene_folder);
+    return result;
+}
+
+/* What is in the folder, and what other folders have to add. */
+static nook_result gather(const nook_measure_options *options, const char *build, nook_journal *journal,
+                          nook_results *results)
+{
+    nook_result result = NOOK_OK;
+    for (size_t i = 0; i < options->merge.count && result == NOOK_OK; i++) {
+        size_t taken = 0;
+        result = nook_measure_merge(options->merge.items[i], options->out, build, results, journal, &taken);
+        if (result == NOOK_OK)
+            nook_log_info("%s: %zu rows taken in", options->merge.items[i], taken);
+    }
+    size_t dropped = options->keep || options->tables ? 0 : nook_measure_drop_other_builds(results, build);
+    if (dropped > 0)
+        nook_log_info("%zu rows were measured by another build and do not count; --keep takes them", dropped);
+    return result;
+}
+
+static nook_result measure(const nook_app *app, const nook_measure_options *options, nook_measure_run *run)
+{
+    nook_scene_list scenes;
+    nook_sweep sweep;
+    nook_result result = nook_sweep_read(options->sweep, &sweep);
+    if (result != NOOK_OK)
+        return result;
+    result = list_scenes(options, &scenes);
+    if (result == NOOK_OK) {
+        run->root = app->root;
+        run->folder = options->out;
+        run->cache = options->cache;
+        run->backend = options->backend;
+        run->sweep = &sweep;
+        nook_measure_run_scenes(run, &scenes);
+    }
+    run->sweep = NULL;
+    nook_scene_list_free(&scenes);
+    nook_sweep_free(&sweep);
+    return result;
+}
+
+static nook_result write_all(const nook_app *app, const nook_measure_options *options, const char *command,
+                             const nook_results *results)
+{
+    nook_result result = nook_results_write(results, options->out, command);
+    if (result == NOOK_OK)
+        result = nook_report_html_write(app->root, results, options->out, command);
+    if (result == NOOK_OK && options->document)
+        result = nook_report_document_write(results, command, options->document);
+    return result;
+}
+
+/* The last line. @return whether the results can be believed */
+static bool print_summary(const nook_measure_options *options, const nook_measure_run *run)
+{
+    nook_measure_verdict verdict = nook_measure_judge(run->results);
+    bool holds = verdict.over == 0 && verdict.non_finite == 0 && verdict.worst;
+    if (verdict.over > 0)
+        nook_log_warning("%zu rows have a truth whose noise is over a quarter of the error; raise rays_max",
+                         verdict.over);
+    printf("%s: %zu rows measured, %zu reused, %zu sites; ", options->out, run->progress.measured, run->reused,
+           run->sites);
+    if (verdict.worst)
+        printf("noise of the truth at most %.3f of the error%s (%s, %s, %.3g m: %s), %s a quarter; ",
+               verdict.largest_part, verdict.worst_is_screen ? " against the screen's" : "", verdict.worst->scene,
+               verdict.worst->camera, verdict.worst->r_max, verdict.worst->setting,
+               verdict.over > 0 ? "over" : "everywhere under");
+    if (run->failures > 0)
+        printf("%zu scenes failed; ", run->failures);
+    printf("%llu pixels not finite\n", (unsigned long long)verdict.non_finite);
+    return holds;
+}
+
+static nook_result run_and_write(const nook_app *app, const nook_measure_options *options, const char *command,
+                                 nook_measure_run *run, bool *out_interrupted)
+{
+    nook_result result = nook_results_read(options->out, run->results);
+    if (result == NOOK_OK)
+        result = gather(options, run->build, run->journal, run->results);
+    if (result == NOOK_OK && !options->tables)
+        result = measure(app, options, run);
+    *out_interrupted = nook_interrupt_asked();
+    nook_interrupt_answer();
+    return result == NOOK_OK ? write_all(app, options, command, run->results) : result;
+}
+
+static int run_measurement(const nook_app *app, const nook_measure_options *options, const char *command,
+                           nook_measure_run *run)
+{
+    bool interrupted;
+    nook_interrupt_hold();
+    nook_result result = run_and_write(app, options, command, run, &interrupted);
+    nook_interrupt_release();
+    if (result != NOOK_OK)
+        return NOOK_EXIT_FAILED;
+    if (interrupted)
+        nook_log_warning("interrupted; what was measured is kept, and the same command goes on from there");
+    bool holds = print_summary(options, run);
+    return holds && !interrupted && run->failures == 0 ? NOOK_EXIT_OK : NOOK_EXIT_FAILED;
+}
+
+int nook_command_measure(const nook_app *app, int argc, char **argv)
+{
+    nook_measure_options options;
+    char build[NOOK_ORIGIN_BUILD_SIZE], command[COMMAND_CAPACITY];
+    nook_results results = { 0 };
+    nook_journal journal;
+    int exit_code;
+    if (!nook_measure_options_read(app, argc, argv, &options, &exit_code))
+        return exit_code;
+    if (nook_origin_build(app->root, build) != NOOK_OK || nook_journal_open(options.out, &journal) != NOOK_OK)
+        return NOOK_EXIT_FAILED;
+    nook_measure_run run = { .build = build, .results = &results, .journal = &journal };
+    exit_code = run_measurement(app, &options, join_command(argc, argv, command), &run);
+    nook_journal_close(&journal);
+    nook_results_free(&results);
+    return exit_code;
+}

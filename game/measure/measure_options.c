@@ -1,0 +1,114 @@
+#include "game/measure/measure_options.h"
+#include "engine/core/file.h"
+#include "engine/core/result.h"
+#include <stdio.h>
+
+static bool read_backend(void *target, const char *text)
+{
+    return nook_backend_parse(text, target);
+}
+
+/* Paths that follow from where the program's data is. */
+static void fill_defaults(const nook_app *app, nook_measure_options *out)
+{
+    *out = (nook_measure_options){ .out = "measured", .backend = NOOK_BACKEND_AUTO };
+    out->cache = nook_path_join(out->default_cache, sizeof out->default_cache, app->root, "cache");
+    nook_path_join(out->default_scene, sizeof out->default_scene, app->root, "content/hall/hall.glb");
+}
+
+static void choose_suite(const nook_app *app, nook_measure_options *out)
+{
+    const char *file = out->suite == 0 ? "content/suites/quick.txt" : "content/suites/full.txt";
+    nook_path_join(out->suite_path, sizeof out->suite_path, app->root, file);
+    if (!out->sweep)
+        out->sweep = out->suite_path;
+}
+
+static void take_scenes(const nook_arguments *arguments, nook_measure_options *out)
+{
+    for (int i = 0; i < arguments->positional_count; i++)
+        out->scenes[out->scene_count++] = arguments->positionals[i];
+    if (out->scene_count == 0 && !out->scene_folder)
+        out->scenes[out->scene_count++] = out->default_scene;
+}
+
+bool nook_measure_options_read(const nook_app *app, int argc, char **argv, nook_measure_options *out,
+                               int *out_exit_code)
+{
+    fill_defaults(app, out);
+    const nook_option options[] = {
+        { .name = "suite",
+          .kind = NOOK_OPTION_CHOICE,
+          .target = &out->suite,
+          .placeholder = "NAME",
+          .choices = "quick|full",
+          .help = "quick (minutes) or full; default quick" },
+        { .name = "sweep",
+          .kind = NOOK_OPTION_TEXT,
+          .target = &out->sweep,
+          .placeholder = "FILE",
+          .help = "settings and views of one's own; content/suites/ has examples" },
+        { .name = "scenes",
+          .kind = NOOK_OPTION_TEXT,
+          .target = &out->scene_folder,
+          .placeholder = "DIR",
+          .help = "measure every .glb and .gltf in it and in the folders in it" },
+        { .name = "out",
+          .kind = NOOK_OPTION_TEXT,
+          .target = &out->out,
+          .placeholder = "DIR",
+          .help = "journal, tables, report and pictures; default measured" },
+        { .name = "merge",
+          .kind = NOOK_OPTION_LIST,
+          .target = &out->merge,
+          .placeholder = "DIR",
+          .help = "take in what was measured into that folder; may be given again" },
+        { .name = "keep",
+          .kind = NOOK_OPTION_FLAG,
+          .target = &out->keep,
+          .help = "rows that another build measured count too" },
+        { .name = "tables",
+          .kind = NOOK_OPTION_FLAG,
+          .target = &out->tables,
+          .help = "measure nothing: write tables and report of what is there" },
+        { .name = "document",
+          .kind = NOOK_OPTION_TEXT,
+          .target = &out->document,
+          .placeholder = "FILE",
+          .help = "put the tables into it, between its lines \"measured: begin\" and \"measured: end\"" },
+        { .name = "cache",
+          .kind = NOOK_OPTION_TEXT,
+          .target = &out->cache,
+          .placeholder = "DIR",
+          .help = "where the truths are kept; default: cache/ of Nook" },
+        { .name = "backend",
+          .kind = NOOK_OPTION_CUSTOM,
+          .target = &out->backend,
+          .placeholder = "NAME",
+          .read = read_backend,
+          .expects = "window, osmesa, egl or auto",
+          .help = "window, osmesa or egl; default: what this machine has" },
+    };
+    const nook_usage usage = {
+        .command = "measure",
+        .summary =
+            "Measures what each setting costs and how wrong it is, on scenes (default: the demo level), cameras and\n"
+            "reaches, against rays traced until their own noise is under a quarter of the error.",
+        .positionals = "[SCENE...]",
+        .positional_max = NOOK_POSITIONAL_MAX,
+        .options = options,
+        .option_count = NOOK_COUNT(options),
+        .details =
+            "Files: measure.csv, measure.json, report.html (open it in a browser), pictures/, and journal.jsonl: what "
+            "was\n"
+            "measured so far. Interrupted (Ctrl-C), the same command goes on from there; nothing is measured twice.\n"
+            "Exit code 1 when a scene could not be measured, a pixel was not finite, or the truth's noise is over a\n"
+            "quarter of an error.\n",
+    };
+    nook_arguments arguments;
+    if (!nook_arguments_read(&usage, argc, argv, &arguments, out_exit_code))
+        return false;
+    choose_suite(app, out);
+    take_scenes(&arguments, out);
+    return true;
+}

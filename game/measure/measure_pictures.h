@@ -1,0 +1,30 @@
+#pragma once
+#include "game/measure/results.h"
+#include "game/stage.h"
+
+enum { NOOK_MEASURE_PICTURE_MAX = 512 };
+
+/**
+ * The path of a picture, relative to the folder of the results: pictures/<scene, camera, reach, ...>/<name>.png. Other than
+ * letters and digits become '-'; a hash keeps apart what that makes the same.
+ * @param name  a setting, or "truth", "screen", "geometry", "lit" @return out
+ */
+const char *nook_measure_picture_path(const nook_result_row *row, const char *name, char out[NOOK_MEASURE_PICTURE_MAX]);
+
+/** Writes visibility as grey, and makes the folders. @return NOOK_E_IO, NOOK_E_MEMORY */
+nook_result nook_measure_picture_write(const char *folder, const char *path, const float *values, uint32_t width,
+                                       uint32_t height);
+
+/**
+ * Writes what of a site no setting changes: truths, geometry, and the picture lit without occlusion. The stage's frame is the
+ * site's afterwards.
+ * @param row       names the site
+ * @param out_site  its texts point into `paths`
+ */
+typedef struct nook_measure_site_paths {
+    char truth[NOOK_MEASURE_PICTURE_MAX], screen[NOOK_MEASURE_PICTURE_MAX], geometry[NOOK_MEASURE_PICTURE_MAX],
+        lit[NOOK_MEASURE_PICTURE_MAX];
+} nook_measure_site_paths;
+nook_result nook_measure_site_write(nook_stage *stage, const nook_site *site, const nook_camera *camera,
+                                    const nook_result_row *row, const char *folder, nook_measure_site_paths *paths,
+                                    nook_result_site *out_site);

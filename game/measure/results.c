@@ -1,0 +1,145 @@
+#include "game/measure/results.h"
+#include "engine/core/log.h"
+#include "game/measure/result_columns.h"
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- Finding ---------------------------------------------------------------------------------------------------- */
+
+static bool same_text(const char *a, const char *b)
+{
+    return strcmp(a, b) == 0;
+}
+
+static bool same_row(const nook_result_row *a, const nook_result_row *b)
+{
+    return a->width == b->width && a->height == b->height && a->r_max == b->r_max &&
+           same_text(a->setting, b->setting) && same_text(a->camera, b->camera) &&
+           same_text(a->scene_hash, b->scene_hash) && same_text(a->falloff, b->falloff);
+}
+
+static bool same_site(const nook_result_site *a, const nook_result_site *b)
+{
+    return a->width == b->width && a->height == b->height && a->r_max == b->r_max && same_text(a->camera, b->camera) &&
+           same_text(a->scene, b->scene) && same_text(a->falloff, b->falloff);
+}
+
+const nook_result_row *nook_results_find(const nook_results *results, const nook_result_row *like)
+{
+    for (size_t i = 0; i < results->row_count; i++) {
+        if (same_row(&results->rows[i], like))
+            return &results->rows[i];
+    }
+    return NULL;
+}
+
+const nook_result_site *nook_results_find_site(const nook_results *results, const nook_result_site *like)
+{
+    for (size_t i = 0; i < results->site_count; i++) {
+        if (same_site(&results->sites[i], like))
+            return &results->sites[i];
+    }
+    return NULL;
+}
+
+/* ---- Adding ----------------------------------------------------------------------------------------------------- */
+
+/* A copy with texts of its own. @param out  record_size bytes; zero on failure */
+static nook_result copy(const nook_result_column *columns, size_t count, const void *record, size_t record_size,
+                        void *out)
+{
+    bool whole = true;
+    memcpy(out, record, record_size);
+    for (size_t i = 0; i < count; i++) {
+        char **text = (char **)(void *)((char *)out + columns[i].offset);
+        if (columns[i].kind != NOOK_RESULT_TEXT)
+            continue;
+        *text = strdup(*text);
+        whole = whole && *text;
+    }
+    if (whole)
+        return NOOK_OK;
+    nook_result_clear(columns, count, out, record_size);
+    return nook_fail(NOOK_E_MEMORY, "no memory for the results");
+}
+
+/* Room for one more at the end. @return it, or NULL */
+static void *grow(void **items, size_t *count, size_t *capacity, size_t item_size)
+{
+    if (*count == *capacity) {
+        size_t more = *capacity ? 2 * *capacity : 64;
+        void *grown = realloc(*items, more * item_size);
+        if (!grown) {
+            nook_fail(NOOK_E_MEMORY, "no memory for %zu results", more);
+            return NULL;
+        }
+        *items = grown;
+        *capacity = more;
+    }
+    return (char *)*items + *count * item_size;
+}
+
+nook_result nook_results_put(nook_results *results, const nook_result_row *row)
+{
+    size_t count;
+    const nook_result_column *columns = nook_result_row_columns(&count);
+    nook_result_row own;
+    nook_result result = copy(columns, count, row, sizeof *row, &own);
+    if (result != NOOK_OK)
+        return result;
+    own.sample.visibility = (nook_grey){ 0 };
+    void *items = results->rows;
+    nook_result_row *place = (nook_result_row *)nook_results_find(results, row);
+    if (place) {
+        nook_result_clear(columns, count, place, sizeof *place);
+    } else {
+        place = grow(&items, &results->row_count, &results->row_capacity, sizeof *place);
+        results->rows = items;
+        results->row_count += place != NULL;
+    }
+    if (!place) {
+        nook_result_clear(columns, count, &own, sizeof own);
+        return NOOK_E_MEMORY;
+    }
+    *place = own;
+    return NOOK_OK;
+}
+
+nook_result nook_results_put_site(nook_results *results, const nook_result_site *site)
+{
+    size_t count;
+    const nook_result_column *columns = nook_result_site_columns(&count);
+    nook_result_site own;
+    nook_result result = copy(columns, count, site, sizeof *site, &own);
+    if (result != NOOK_OK)
+        return result;
+    void *items = results->sites;
+    nook_result_site *place = (nook_result_site *)nook_results_find_site(results, site);
+    if (place) {
+        nook_result_clear(columns, count, place, sizeof *place);
+    } else {
+        place = grow(&items, &results->site_count, &results->site_capacity, sizeof *place);
+        results->sites = items;
+        results->site_count += place != NULL;
+    }
+    if (!place) {
+        nook_result_clear(columns, count, &own, sizeof own);
+        return NOOK_E_MEMORY;
+    }
+    *place = own;
+    return NOOK_OK;
+}
+
+void nook_results_free(nook_results *results)
+{
+    size_t row_columns, site_columns;
+    const nook_result_column *of_row = nook_result_row_columns(&row_columns);
+    const nook_result_column *of_site = nook_result_site_columns(&site_columns);
+    for (size_t i = 0; i < results->row_count; i++)
+        nook_result_clear(of_row, row_columns, &results->rows[i], sizeof results->rows[i]);
+    for (size_t i = 0; i < results->site_count; i++)
+        nook_result_clear(of_site, site_columns, &results->sites[i], sizeof results->sites[i]);
+    free(results->rows);
+    free(results->sites);
+    *results = (nook_results){ 0 };
+}

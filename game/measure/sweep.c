@@ -1,0 +1,251 @@
+#include "game/measure/sweep.h"
+#include "engine/core/file.h"
+#include "engine/core/log.h"
+#include "game/measure/sweep_block.h"
+#include "game/option.h"
+#include "game/techniques.h"
+#include "game/volumes.h"
+#include "modules/ao/technique.h"
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { WHERE_MAX_BYTES = 4096 + 32, SIDE_MAX = 16384, CAMERAS_MAX = 256 };
+
+static const char blanks[] = " \t\r";
+
+/* A file being read. */
+typedef struct reading {
+    const char *name;
+    unsigned line;
+    char where[WHERE_MAX_BYTES]; /* "file:line" */
+    nook_sweep sweep;
+    nook_sweep_block block;
+    unsigned block_line; /* 0: before the first block */
+    bool seen[8];        /* of the general lines: each may stand once */
+} reading;
+
+/* ---- Before the blocks ------------------------------------------------------------------------------------------ */
+
+static nook_result read_size(reading *r, char *text)
+{
+    int width, height, end = 0;
+    if (sscanf(text, "%5dx%5d%n", &width, &height, &end) != 2 || text[end] || width < 1 || height < 1 ||
+        width > SIDE_MAX || height > SIDE_MAX)
+        return nook_fail(NOOK_E_FORMAT, "%s: size %s; give WxH, each 1 to %d", r->where, text, SIDE_MAX);
+    r->sweep.width = (uint32_t)width;
+    r->sweep.height = (uint32_t)height;
+    return NOOK_OK;
+}
+
+static nook_result read_r_max(reading *r, char *text)
+{
+    r->sweep.r_max_count = 0;
+    for (char *word = strtok(text, blanks); word; word = strtok(NULL, blanks)) {
+        nook_sweep_r_max entry = { 0 };
+        size_t length = strlen(word);
+        entry.metres = word[length - 1] == 'm';
+        if (entry.metres)
+            word[length - 1] = '\0';
+        if (!nook_text_to_number(word, &entry.value) || !(entry.value >= 1e-9) || !(entry.value <= 1e9))
+            return nook_fail(NOOK_E_FORMAT,
+                             "%s: r_max %s; give parts of the scene's diagonal above 0, or metres with an m behind",
+                             r->where, word);
+        if (r->sweep.r_max_count == NOOK_SWEEP_R_MAX_COUNT)
+            return nook_fail(NOOK_E_FORMAT, "%s: more than %d of r_max", r->where, NOOK_SWEEP_R_MAX_COUNT);
+        r->sweep.r_max[r->sweep.r_max_count++] = entry;
+    }
+    return NOOK_OK;
+}
+
+static nook_result read_falloff(reading *r, char *text)
+{
+    r->sweep.falloff_count = 0;
+    for (char *word = strtok(text, blanks); word; word = strtok(NULL, blanks)) {
+        nook_param param = *nook_shared_param("falloff");
+        int32_t choice = 0;
+        param.offset = 0;
+        if (nook_param_parse(&param, r->where, &choice, word) != NOOK_OK)
+            return NOOK_E_FORMAT;
+        if (r->sweep.falloff_count == NOOK_SWEEP_FALLOFF_COUNT)
+            return nook_fail(NOOK_E_FORMAT, "%s: more than %d falloffs", r->where, NOOK_SWEEP_FALLOFF_COUNT);
+        r->sweep.falloffs[r->sweep.falloff_count++] = (uint32_t)choice;
+    }
+    return NOOK_OK;
+}
+
+static nook_result read_cameras(reading *r, char *text)
+{
+    int32_t count = 0;
+    char *kind = strtok(text, blanks), *number = strtok(NULL, blanks);
+    bool sampled = strcmp(kind, "sampled") == 0;
+    if ((!sampled && strcmp(kind, "scene") != 0) || !number || strtok(NULL, blanks) ||
+        !nook_text_to_int(number, &count) || count < 1 || count > CAMERAS_MAX)
+        return nook_fail(NOOK_E_FORMAT, "%s: cameras; give \"scene N\" or \"sampled N\" with N from 1 to %d", r->where,
+                         CAMERAS_MAX);
+    r->sweep.camera_count = (uint32_t)count;
+    r->sweep.cameras_sampled = sampled;
+    return NOOK_OK;
+}
+
+static nook_result read_noise(reading *r, char *text)
+{
+    double noise;
+    if (!nook_text_to_number(text, &noise) || !(noise > 0.0) || !(noise <= 1.0))
+        return nook_fail(NOOK_E_FORMAT, "%s: noise %s; give a number above 0, at most 1", r->where, text);
+    r->sweep.noise = noise;
+    return NOOK_OK;
+}
+
+static nook_result read_rays_max(reading *r, char *text)
+{
+    int32_t rays;
+    if (!nook_text_to_int(text, &rays) || rays < 2 || rays > 1 << 24)
+        return nook_fail(NOOK_E_FORMAT, "%s: rays_max %s; give a whole number from 2 to %d", r->where, text, 1 << 24);
+    r->sweep.rays_max = (uint32_t)rays;
+    return NOOK_OK;
+}
+
+static nook_result read_general(reading *r, const char *name, char *value)
+{
+    static const struct {
+        const char *name;
+        nook_result (*read)(reading *r, char *text);
+    } lines[] = { { "size", read_size },       { "r_max", read_r_max }, { "falloff", read_falloff },
+                  { "cameras", read_cameras }, { "noise", read_noise }, { "rays_max", read_rays_max } };
+    for (size_t i = 0; i < NOOK_COUNT(lines); i++) {
+        if (strcmp(lines[i].name, name) != 0)
+            continue;
+        if (r->seen[i])
+            return nook_fail(NOOK_E_FORMAT, "%s: %s stands there twice; leave one of them", r->where, name);
+        r->seen[i] = true;
+        return lines[i].read(r, value);
+    }
+    return nook_fail(NOOK_E_FORMAT,
+                     "%s: %s is nothing of a sweep before its first [technique]; there are size, r_max, falloff, "
+                     "cameras, noise, rays_max",
+                     r->where, name);
+}
+
+/* ---- Lines ------------------------------------------------------------------------------------------------------ */
+
+static nook_result end_block(reading *r)
+{
+    return r->block_line > 0 ? nook_sweep_block_expand(&r->block, &r->sweep) : NOOK_OK;
+}
+
+static nook_result begin_block(reading *r, char *text)
+{
+    size_t length = strlen(text);
+    if (length < 3 || text[length - 1] != ']')
+        return nook_fail(NOOK_E_FORMAT, "%s: give [technique]", r->where);
+    nook_result result = end_block(r);
+    if (result != NOOK_OK)
+        return result;
+    text[length - 1] = '\0';
+    const nook_ao_technique *technique = nook_technique_find(text + 1);
+    if (!technique) {
+        nook_technique_refuse(r->where, text + 1);
+        return NOOK_E_FORMAT;
+    }
+    r->block = (nook_sweep_block){ .file = r->name, .technique = technique };
+    r->block_line = r->line;
+    return NOOK_OK;
+}
+
+/* Cuts blanks off both ends, in place. */
+static char *trim(char *text)
+{
+    text += strspn(text, blanks);
+    size_t length = strlen(text);
+    while (length > 0 && strchr(blanks, text[length - 1]))
+        text[--length] = '\0';
+    return text;
+}
+
+static nook_result read_entry(reading *r, char *text)
+{
+    if (text[0] == '[')
+        return begin_block(r, text);
+    char *equals = strchr(text, '=');
+    if (!equals)
+        return nook_fail(NOOK_E_FORMAT, "%s: give name = values, or [technique]", r->where);
+    *equals = '\0';
+    char *name = trim(text), *values = trim(equals + 1);
+    if (!*name || strpbrk(name, blanks) || !*values)
+        return nook_fail(NOOK_E_FORMAT, "%s: give name = values", r->where);
+    return r->block_line > 0 ? nook_sweep_block_add(&r->block, r->line, name, values) : read_general(r, name, values);
+}
+
+static nook_result read_line(reading *r, const char *text, size_t length)
+{
+    char line[NOOK_SWEEP_LINE_MAX];
+    snprintf(r->where, sizeof r->where, "%s:%u", r->name, r->line);
+    const char *comment = memchr(text, '#', length);
+    if (comment)
+        length = (size_t)(comment - text);
+    if (length >= sizeof line || memchr(text, '\0', length))
+        return nook_fail(NOOK_E_FORMAT, "%s: no sweep: a line of it is no text, or too long", r->where);
+    memcpy(line, text, length);
+    line[length] = '\0';
+    char *trimmed = trim(line);
+    return *trimmed ? read_entry(r, trimmed) : NOOK_OK;
+}
+
+static nook_result read_lines(reading *r, const char *text, size_t size)
+{
+    nook_result result = NOOK_OK;
+    for (size_t at = 0; at < size && result == NOOK_OK;) {
+        const char *end = memchr(text + at, '\n', size - at);
+        size_t length = end ? (size_t)(end - text) - at : size - at;
+        r->line++;
+        result = read_line(r, text + at, length);
+        at += length + 1;
+    }
+    if (result == NOOK_OK)
+        result = end_block(r);
+    if (result == NOOK_OK && r->sweep.setting_count == 0)
+        result = nook_fail(NOOK_E_FORMAT, "%s: no setting in it; add a line such as [volume]", r->name);
+    return result;
+}
+
+nook_result nook_sweep_parse(const char *name, const char *text, size_t size, nook_sweep *out_sweep)
+{
+    reading *r = calloc(1, sizeof *r);
+    if (!r)
+        return nook_fail(NOOK_E_MEMORY, "%s: no memory to read it", name);
+    r->name = name;
+    r->sweep = (nook_sweep){ .width = 480,
+                             .height = 270,
+                             .r_max = { { NOOK_VOLUMES_R_MAX_DEFAULT, false } },
+                             .r_max_count = 1,
+                             .falloffs = { (uint32_t)nook_shared_param("falloff")->initial },
+                             .falloff_count = 1,
+                             .camera_count = 1,
+                             .noise = 0.004,
+                             .rays_max = 1 << 14 };
+    nook_result result = read_lines(r, text, size);
+    if (result == NOOK_OK)
+        *out_sweep = r->sweep;
+    else
+        nook_sweep_free(&r->sweep);
+    free(r);
+    return result;
+}
+
+nook_result nook_sweep_read(const char *path, nook_sweep *out_sweep)
+{
+    nook_file file;
+    nook_result result = nook_file_read(path, &file);
+    if (result != NOOK_OK)
+        return result;
+    result = nook_sweep_parse(path, (const char *)file.bytes, file.size, out_sweep);
+    nook_file_free(&file);
+    return result;
+}
+
+void nook_sweep_free(nook_sweep *sweep)
+{
+    free(sweep->settings);
+    *sweep = (nook_sweep){ 0 };
+}
