@@ -156,12 +156,27 @@ void nook_gpu_finish(nook_gpu *gpu)
     gpu->gl->Finish();
 }
 
+static void show_writes(nook_gpu *gpu)
+{
+    gpu->gl->MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
+                           GL_SHADER_STORAGE_BARRIER_BIT | GL_UNIFORM_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT |
+                           GL_TEXTURE_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+}
+
 void nook_dispatch(nook_gpu *gpu, nook_program program, uint32_t x, uint32_t y, uint32_t z)
 {
     assert(program.id != 0);
     gpu->gl->UseProgram(program.id);
     gpu->gl->DispatchCompute(x, y, z);
-    gpu->gl->MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
-                           GL_SHADER_STORAGE_BARRIER_BIT | GL_UNIFORM_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT |
-                           GL_TEXTURE_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+    show_writes(gpu);
+}
+
+void nook_dispatch_indirect(nook_gpu *gpu, nook_program program, nook_buffer groups)
+{
+    assert(program.id != 0 && groups.size >= 3 * sizeof(GLuint));
+    gpu->gl->UseProgram(program.id);
+    gpu->gl->BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, groups.id);
+    gpu->gl->DispatchComputeIndirect(0);
+    gpu->gl->BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
+    show_writes(gpu);
 }

@@ -144,6 +144,8 @@ void nook_bind_storage(nook_gpu *gpu, uint32_t unit, nook_buffer buffer);
  * Runs a compute program on groups x, y, z, then makes its writes visible to texture fetches, image loads and buffers.
  */
 void nook_dispatch(nook_gpu *gpu, nook_program program, uint32_t x, uint32_t y, uint32_t z);
+/** The same with x, y, z from three GLuint at the start of a buffer, which an earlier dispatch may have written; 0 does nothing. */
+void nook_dispatch_indirect(nook_gpu *gpu, nook_program program, nook_buffer groups);
 /** Groups of `local` that cover `size`. */
 static inline uint32_t nook_groups(uint32_t size, uint32_t local)
 {

@@ -1,35 +1,33 @@
 #include "modules/ao_volume/volume.h"
 #include "modules/ao/direction_texture.h"
+#include "modules/ao_volume/cut_internal.h"
 
 #define NOOK_PARAM_STRUCT volume_params
 #define NOOK_PARAM_FILE "modules/ao_volume/params.def"
 #include "engine/core/param_block.inl"
 
 enum { COMBINE_MULTIPLY = 0 };
-enum { TILE_SIZE = 8, BINDING_DIRECTIONS = 4, BINDING_VISIBILITY = 0, BINDING_SUM = 1, LOCATION_PART = 0 };
-
-/**
- * llvmpipe ends all loops of an invocation without a word after 65535 turns in sum, and a GPU that works for seconds on one
- * dispatch is reset: the work is cut into dispatches. A ray at an occluder takes up to TURNS_PER_MISS when it misses the box, and
- * one more per sample when it meets it; one ray meets no more than BOXES_PER_RAY.
- */
-enum { TURNS_PER_DISPATCH = 60000, TURNS_PER_MISS = 3, BOXES_PER_RAY = 16, RAYS_PER_DISPATCH = 64 };
+enum { TILE_SIZE = 8, BINDING_DIRECTIONS = 4, BINDING_AGAIN = 5, BINDING_VISIBILITY = 0, BINDING_KEPT = 1 };
+enum { LOCATION_PART = 0, LOCATION_OCCLUDERS = 1 };
 
 typedef struct volume_state {
     nook_direction_texture directions;
-    nook_texture sum; /**< R32F of the trace's size; id 0 until an occluder's rays take several dispatches. */
+    nook_buffer again; /**< Groups x, y, z of dispatches that do the work again: x is 0 until loops were ended. */
+    nook_texture kept; /**< R32F of the trace's size; id 0 until a cut needs it. */
 } volume_state;
+
+static nook_result create(void *state, nook_gpu *gpu)
+{
+    volume_state *s = state;
+    return nook_buffer_create(gpu, NULL, 3 * sizeof(GLuint), &s->again);
+}
 
 static void destroy(void *state, nook_gpu *gpu)
 {
     volume_state *s = state;
     nook_direction_texture_release(&s->directions, gpu);
-    nook_texture_destroy(gpu, &s->sum);
-}
-
-static uint32_t at_least(uint32_t lowest, uint32_t value)
-{
-    return value > lowest ? value : lowest;
+    nook_buffer_destroy(gpu, &s->again);
+    nook_texture_destroy(gpu, &s->kept);
 }
 
 static uint32_t at_most(uint32_t highest, uint32_t value)
@@ -37,52 +35,65 @@ static uint32_t at_most(uint32_t highest, uint32_t value)
     return value < highest ? value : highest;
 }
 
-/** How the work is cut: rays and occluders of one dispatch. */
-typedef struct volume_cut {
-    uint32_t rays, occluders;
-} volume_cut;
-
 /**
- * Union needs all occluders of a ray at once, so it is cut into groups of rays. The product needs all rays of an occluder, so it
- * is cut into groups of occluders; rays are cut only when those of a single occluder are too many (fit_sum).
+ * Union takes a ray's occluders one after the other, the product an occluder's rays.
+ * @param groups  of each dispatch, on the GPU; NULL: all of the trace
  */
-static volume_cut choose_cut(const volume_params *params, uint32_t occluders)
+static void dispatch_parts(const nook_ao_pass *pass, const volume_work *work, const volume_cut *cut,
+                           nook_program program, const nook_buffer *groups)
 {
-    uint32_t rays = (uint32_t)params->rays, steps = (uint32_t)params->steps;
-    if (params->combine != COMBINE_MULTIPLY) {
-        uint32_t turns = occluders * TURNS_PER_MISS + at_most(BOXES_PER_RAY, occluders) * steps;
-        return (volume_cut){ at_most(RAYS_PER_DISPATCH, at_least(1, TURNS_PER_DISPATCH / turns)), occluders };
-    }
-    uint32_t turns_per_occluder = TURNS_PER_MISS + steps, occluder_turns = TURNS_PER_DISPATCH / rays;
-    if (occluder_turns < turns_per_occluder)
-        return (volume_cut){ TURNS_PER_DISPATCH / turns_per_occluder, 1 };
-    uint32_t all_met = occluder_turns / turns_per_occluder;
-    if (all_met < BOXES_PER_RAY)
-        return (volume_cut){ rays, all_met };
-    return (volume_cut){ rays, (occluder_turns - BOXES_PER_RAY * steps) / TURNS_PER_MISS };
-}
-
-static void dispatch_parts(const nook_ao_pass *pass, uint32_t rays, volume_cut cut, nook_program program)
-{
-    uint32_t occluders = pass->occluder_count;
-    for (uint32_t first = 0; first < occluders; first += cut.occluders) {
-        for (uint32_t ray = 0; ray < rays; ray += cut.rays) {
-            const GLint part[4] = { (GLint)ray, (GLint)at_most(rays, ray + cut.rays), (GLint)first,
-                                    (GLint)at_most(occluders, first + cut.occluders) };
-            pass->gpu->gl->ProgramUniform4iv(program.id, LOCATION_PART, 1, part);
+    uint32_t ray_parts = nook_groups(work->rays, cut->rays);
+    uint32_t occluder_parts = nook_groups(work->occluders, cut->occluders);
+    for (uint32_t i = 0; i < ray_parts * occluder_parts; i++) {
+        uint32_t ray = cut->rays * (work->multiply ? i % ray_parts : i / occluder_parts);
+        uint32_t occluder = cut->occluders * (work->multiply ? i / ray_parts : i % occluder_parts);
+        const GLint part[4] = { (GLint)ray, (GLint)at_most(work->rays, ray + cut->rays), (GLint)occluder,
+                                (GLint)at_most(work->occluders, occluder + cut->occluders) };
+        pass->gpu->gl->ProgramUniform4iv(program.id, LOCATION_PART, 1, part);
+        if (groups)
+            nook_dispatch_indirect(pass->gpu, program, *groups);
+        else
             nook_dispatch(pass->gpu, program, nook_groups(pass->width, TILE_SIZE), nook_groups(pass->height, TILE_SIZE),
                           1);
-        }
     }
 }
 
-/** Where the sum over an occluder's rays is kept from one dispatch to the next. */
-static nook_result fit_sum(volume_state *s, const nook_ao_pass *pass)
+/** Fits and binds the image for what waits from one dispatch to the next. */
+static nook_result bind_kept(volume_state *s, const nook_ao_pass *pass)
 {
-    if (s->sum.id && s->sum.width == pass->width && s->sum.height == pass->height)
-        return NOOK_OK;
-    nook_texture_destroy(pass->gpu, &s->sum);
-    return nook_texture_create_2d(pass->gpu, GL_R32F, pass->width, pass->height, GL_NEAREST, &s->sum);
+    if (s->kept.id == 0 || s->kept.width != pass->width || s->kept.height != pass->height) {
+        nook_texture_destroy(pass->gpu, &s->kept);
+        nook_result result =
+            nook_texture_create_2d(pass->gpu, GL_R32F, pass->width, pass->height, GL_NEAREST, &s->kept);
+        if (result != NOOK_OK)
+            return result;
+    }
+    nook_bind_image(pass->gpu, BINDING_KEPT, s->kept, GL_READ_WRITE);
+    return NOOK_OK;
+}
+
+/**
+ * The likely cut first. When it was not sure and the shader found that its loops were ended, everything is done again, carefully; else
+ * those dispatches have no groups. The GPU knows which: nobody waits for it.
+ */
+static nook_result trace(volume_state *s, const nook_ao_pass *pass, const volume_work *work, nook_program program)
+{
+    const GLuint nothing[3] = { 0, nook_groups(pass->height, TILE_SIZE), 1 };
+    volume_cut likely = volume_cut_likely(work), careful = volume_cut_careful(work);
+    if (volume_cut_needs_image(work, &likely) || volume_cut_needs_image(work, &careful)) {
+        nook_result result = bind_kept(s, pass);
+        if (result != NOOK_OK)
+            return result;
+    }
+    nook_buffer_update(pass->gpu, s->again, 0, nothing, sizeof nothing);
+    nook_bind_storage(pass->gpu, BINDING_AGAIN, s->again);
+    nook_bind_texture(pass->gpu, BINDING_DIRECTIONS, s->directions.texture);
+    nook_bind_image(pass->gpu, BINDING_VISIBILITY, pass->visibility, GL_READ_WRITE);
+    pass->gpu->gl->ProgramUniform1i(program.id, LOCATION_OCCLUDERS, (GLint)work->occluders);
+    dispatch_parts(pass, work, &likely, program, NULL);
+    if (!likely.sure)
+        dispatch_parts(pass, work, &careful, program, &s->again);
+    return NOOK_OK;
 }
 
 static nook_result record(void *state, const void *params, const nook_ao_pass *pass)
@@ -94,24 +105,13 @@ static nook_result record(void *state, const void *params, const nook_ao_pass *p
         pass->gpu->gl->ClearTexImage(pass->visibility.id, 0, GL_RGBA, GL_FLOAT, open);
         return NOOK_OK;
     }
-    nook_result result = nook_direction_texture_fit(&s->directions, pass->gpu, (uint32_t)p->rays, pass->seed);
-    if (result != NOOK_OK)
-        return result;
+    const volume_work work = { (uint32_t)p->rays, (uint32_t)p->steps, pass->occluder_count,
+                               p->combine == COMBINE_MULTIPLY };
     nook_program program;
-    result = nook_program_compute(pass->gpu, "shaders/ao/volume.comp.glsl", "", &program);
-    if (result != NOOK_OK)
-        return result;
-    volume_cut cut = choose_cut(p, pass->occluder_count);
-    if (p->combine == COMBINE_MULTIPLY && cut.rays < (uint32_t)p->rays) {
-        result = fit_sum(s, pass);
-        if (result != NOOK_OK)
-            return result;
-        nook_bind_image(pass->gpu, BINDING_SUM, s->sum, GL_READ_WRITE);
-    }
-    nook_bind_texture(pass->gpu, BINDING_DIRECTIONS, s->directions.texture);
-    nook_bind_image(pass->gpu, BINDING_VISIBILITY, pass->visibility, GL_READ_WRITE);
-    dispatch_parts(pass, (uint32_t)p->rays, cut, program);
-    return NOOK_OK;
+    nook_result result = nook_direction_texture_fit(&s->directions, pass->gpu, work.rays, pass->seed);
+    if (result == NOOK_OK)
+        result = nook_program_compute(pass->gpu, "shaders/ao/volume.comp.glsl", "", &program);
+    return result == NOOK_OK ? trace(s, pass, &work, program) : result;
 }
 
 const nook_ao_technique nook_ao_volume_technique = {
@@ -123,7 +123,8 @@ const nook_ao_technique nook_ao_volume_technique = {
     .param_count = NOOK_COUNT(param_table),
     .params_size = sizeof(volume_params),
     .state_size = sizeof(volume_state),
-    .state_version = 2,
+    .state_version = 3,
+    .create = create,
     .destroy = destroy,
     .record = record,
 };

@@ -13,9 +13,15 @@ layout(std140, binding = 1) uniform Params {
 layout(binding = 0) uniform sampler2D depth_texture;
 layout(binding = 1) uniform sampler2D normal_texture;
 layout(binding = 0, r32f) uniform image2D visibility_image;
-layout(binding = 1, r32f) uniform image2D sum_image; // multiply, when the rays of one occluder take several dispatches
-// Rays x to y - 1 of occluders z to w - 1: this dispatch's part of the work, see modules/ao_volume/volume.c.
+// What waits for the next dispatch: union, a ray's nearest hit so far; multiply, the sum over an occluder's rays so far.
+layout(binding = 1, r32f) uniform image2D kept_image;
+// Groups of the dispatches that do everything again, carefully: x stays 0 unless loops were ended.
+layout(std430, binding = 5) buffer Again {
+    uint groups_x, groups_y, groups_z;
+} again;
+// Rays x to y - 1 of occluders z to w - 1: this dispatch's part of the work, see modules/ao_volume/cut_internal.h.
 layout(location = 0) uniform ivec4 part;
+layout(location = 1) uniform int occluder_count; // of all parts
 
 const int STEPPING_FIXED = 0;
 const int COMBINE_MULTIPLY = 0;
@@ -106,18 +112,20 @@ float march(Occluder o, Receiver r, vec3 d, float cosine, float limit, float jit
     return NO_HIT;
 }
 
-// Exact for any number of volumes: rho of the nearest hit, ray by ray. Uniform control flow. Returns this part's share of A.
-float occlusion_union(bool inside, vec3 position, vec3 normal, ivec2 pixel, inout uint fetches)
+// Exact for any number of volumes: rho of the nearest hit, ray by ray. Uniform control flow. `sum` is that over the rays of earlier
+// parts; rays are added one by one, so that the cut does not show in the result. A part without the last occluder has one ray
+// only, whose nearest hit waits.
+float sum_union(float sum, bool inside, vec3 position, vec3 normal, ivec2 pixel, inout uint fetches)
 {
     vec3 tangent, bitangent;
     tangent_frame(normal, tangent, bitangent);
     int block = block_of(pixel);
-    float shift = noise(pixel, 1u), sum = 0.0;
+    float shift = noise(pixel, 1u), start = part.z > 0 ? imageLoad(kept_image, pixel).r : frame.r_max;
     for (int first = part.x; first < part.y; first += BATCH) {
         int batch = min(BATCH, part.y - first);
         float nearest[BATCH];
         for (int j = 0; j < BATCH; j++)
-            nearest[j] = frame.r_max;
+            nearest[j] = start;
         for (int chunk = part.z; chunk < part.w; chunk += CHUNK) {
             if (first == part.x || part.w - part.z > CHUNK)
                 tile_list(chunk, part.w);
@@ -135,20 +143,22 @@ float occlusion_union(bool inside, vec3 position, vec3 normal, ivec2 pixel, inou
                 }
             }
         }
+        if (part.w < occluder_count)
+            imageStore(kept_image, pixel, vec4(nearest[0]));
         for (int j = 0; j < BATCH; j++)
-            sum += j < batch ? falloff(nearest[j]) : 0.0;
+            sum += j < batch && part.w == occluder_count ? falloff(nearest[j]) : 0.0;
     }
-    return sum / float(params.rays);
+    return sum;
 }
 
-// The paper's: product of the volumes' visibilities; darkens where volumes overlap, lights where they do not (C5). Returns this
-// part's factor. A part that does not hold all rays holds one occluder only; the last of such parts has the factor.
-float visibility_multiply(bool inside, vec3 position, vec3 normal, ivec2 pixel, inout uint fetches)
+// The paper's: product of the volumes' visibilities; darkens where volumes overlap, lights where they do not (C5). `visibility` is
+// that of earlier parts. A part that does not hold all rays holds one occluder only; the last of such parts has its factor.
+float multiply_visibilities(float visibility, bool inside, vec3 position, vec3 normal, ivec2 pixel, inout uint fetches)
 {
     vec3 tangent, bitangent;
     tangent_frame(normal, tangent, bitangent);
     int block = block_of(pixel);
-    float shift = noise(pixel, 1u), visibility = 1.0;
+    float shift = noise(pixel, 1u);
     for (int chunk = part.z; chunk < part.w; chunk += CHUNK) {
         tile_list(chunk, part.w);
         for (uint i = 0u; inside && i < tile_count; i++) {
@@ -156,14 +166,14 @@ float visibility_multiply(bool inside, vec3 position, vec3 normal, ivec2 pixel, 
             Receiver r = receive(o, position, normal);
             if (!r.can_see)
                 continue;
-            float sum = part.x == 0 ? 0.0 : imageLoad(sum_image, pixel).r;
+            float sum = part.x == 0 ? 0.0 : imageLoad(kept_image, pixel).r;
             for (int j = part.x; j < part.y; j++) {
                 vec3 d = direction(j, block, tangent, bitangent, normal);
                 float jitter = fract(shift + float(j) * 0.61803399);
                 sum += falloff(march(o, r, d, dot(d, normal), frame.r_max, jitter, fetches));
             }
             if (part.y < params.rays)
-                imageStore(sum_image, pixel, vec4(sum));
+                imageStore(kept_image, pixel, vec4(sum));
             else
                 visibility *= 1.0 - sum / float(params.rays);
         }
@@ -171,22 +181,40 @@ float visibility_multiply(bool inside, vec3 position, vec3 normal, ivec2 pixel, 
     return visibility;
 }
 
+// Has llvmpipe ended this invocation's loops? It lets each go on for one turn then; here is one that wants two, in a number that
+// compilers do not know, or they would unroll it.
+bool loops_were_ended()
+{
+    int wanted = occluder_count > 0 ? 2 : 1, turns = 0;
+    while (turns < wanted)
+        turns++;
+    return turns < wanted;
+}
+
 void main()
 {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    bool on_image = all(lessThan(pixel, frame.size));
+    bool on_image = all(lessThan(pixel, frame.size)), multiply = params.combine == COMBINE_MULTIPLY;
     float depth = on_image ? texelFetch(depth_texture, pixel, 0).r : 0.0;
-    float visibility = part.x == 0 && part.z == 0 || !on_image ? 1.0 : imageLoad(visibility_image, pixel).r;
+    // Between parts the image holds the product so far, or the sum of rho so far.
+    bool is_first = part.x == 0 && part.z == 0, is_last = part.y == params.rays && part.w == occluder_count;
+    float result = is_first || !on_image ? (multiply ? 1.0 : 0.0) : imageLoad(visibility_image, pixel).r;
     uint fetches = 0u;
     if (tile_begin(depth)) {
         vec3 position = view_position(pixel, depth);
         vec3 normal = on_image ? nook_octahedral_decode(texelFetch(normal_texture, pixel, 0).xy) : vec3(0.0, 0.0, 1.0);
-        if (params.combine == COMBINE_MULTIPLY)
-            visibility *= visibility_multiply(depth > 0.0, position, normal, pixel, fetches);
+        if (multiply)
+            result = multiply_visibilities(result, depth > 0.0, position, normal, pixel, fetches);
         else
-            visibility -= occlusion_union(depth > 0.0, position, normal, pixel, fetches);
+            result = sum_union(result, depth > 0.0, position, normal, pixel, fetches);
+        if (loops_were_ended())
+            again.groups_x = gl_NumWorkGroups.x;
     }
+    if (is_last && !multiply)
+        result = 1.0 - result / float(params.rays);
+    if (is_last)
+        result = depth > 0.0 ? clamp(result, 0.0, 1.0) : 1.0;
     if (on_image)
-        imageStore(visibility_image, pixel, vec4(depth > 0.0 ? clamp(visibility, 0.0, 1.0) : 1.0));
+        imageStore(visibility_image, pixel, vec4(result));
     count_fetches(fetches);
 }

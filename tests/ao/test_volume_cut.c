@@ -1,0 +1,109 @@
+/* How the work of the volume technique is cut into dispatches: what a software driver would end silently must never be one. */
+#include "modules/ao_volume/cut_internal.h"
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <cmocka.h>
+
+enum { TURNS_MAX = 65535 }; /* of all loops of an invocation: llvmpipe */
+
+static const uint32_t many[] = { 1, 2, 7, 16, 17, 64, 300, 1024, 4096, 65536 };
+enum { MANY = sizeof many / sizeof *many };
+
+/* Loops over samples with their last, failing test, over rays, over occluders. */
+static uint64_t turns(const volume_work *work, const volume_cut *cut, uint32_t met)
+{
+    uint64_t boxes = met < cut->occluders ? met : cut->occluders, missed = cut->occluders - boxes;
+    return cut->rays * (boxes * (work->steps + 1 + 2) + missed * 2) + cut->occluders / 64;
+}
+
+static void check_cut(const volume_work *work, const volume_cut *cut, uint32_t met)
+{
+    assert_in_range(cut->rays, 1, work->rays > 64 ? work->rays : 64);
+    assert_in_range(cut->occluders, 1, work->occluders);
+    if (turns(work, cut, met) > TURNS_MAX)
+        fail_msg("%u rays, %u steps, %u occluders, %s: %u rays of %u occluders take %llu turns", work->rays,
+                 work->steps, work->occluders, work->multiply ? "product" : "union", cut->rays, cut->occluders,
+                 (unsigned long long)turns(work, cut, met));
+    if (work->multiply && cut->rays < work->rays)
+        assert_int_equal(cut->occluders, 1); /* one sum waits for the next part */
+    if (!work->multiply && cut->occluders < work->occluders)
+        assert_int_equal(cut->rays, 1); /* one nearest hit waits */
+}
+
+static void for_each_work(void (*check)(const volume_work *work))
+{
+    for (uint32_t i = 0; i < MANY * MANY * MANY * 2; i++) {
+        const volume_work work = { many[i / 2 % MANY], many[i / 2 / MANY % MANY], many[i / 2 / MANY / MANY], i % 2 };
+        if (work.rays <= 4096 && work.steps <= 1024)
+            check(&work);
+    }
+}
+
+static void check_careful(const volume_work *work)
+{
+    volume_cut cut = volume_cut_careful(work);
+    assert_true(cut.sure);
+    check_cut(work, &cut, work->occluders);
+}
+
+static void check_likely(const volume_work *work)
+{
+    volume_cut cut = volume_cut_likely(work);
+    if (cut.sure)
+        check_cut(work, &cut, work->occluders);
+    else if (work->occluders <= 4096) /* of more, missing alone may be too much for a ray: then it is done again */
+        check_cut(work, &cut, 16);
+}
+
+static void check_common(const volume_work *work)
+{
+    if (work->occluders <= 16)
+        assert_true(volume_cut_likely(work).sure);
+}
+
+static void test_careful_cuts_hold_whatever_meets_what(void **state)
+{
+    (void)state;
+    for_each_work(check_careful);
+}
+
+static void test_likely_cuts_hold_when_a_ray_meets_sixteen_boxes(void **state)
+{
+    (void)state;
+    for_each_work(check_likely);
+}
+
+static void test_a_few_occluders_are_never_done_again(void **state)
+{
+    (void)state;
+    for_each_work(check_common);
+}
+
+static void test_only_cuts_of_a_ray_or_of_an_occluder_keep_an_image(void **state)
+{
+    (void)state;
+    volume_work work = { .rays = 8, .steps = 96, .occluders = 300 };
+    volume_cut cut = volume_cut_careful(&work);
+    assert_false(volume_cut_needs_image(&work, &cut)); /* 300 x 100 turns a ray */
+    work.occluders = 4096;
+    cut = volume_cut_careful(&work);
+    assert_true(volume_cut_needs_image(&work, &cut));
+    work = (volume_work){ .rays = 64, .steps = 96, .occluders = 4096, .multiply = true };
+    cut = volume_cut_careful(&work);
+    assert_false(volume_cut_needs_image(&work, &cut));
+    work.rays = 4096;
+    cut = volume_cut_careful(&work);
+    assert_true(volume_cut_needs_image(&work, &cut));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_careful_cuts_hold_whatever_meets_what),
+        cmocka_unit_test(test_likely_cuts_hold_when_a_ray_meets_sixteen_boxes),
+        cmocka_unit_test(test_a_few_occluders_are_never_done_again),
+        cmocka_unit_test(test_only_cuts_of_a_ray_or_of_an_occluder_keep_an_image),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
