@@ -10,3 +10,4 @@ extern const nook_extreme_group nook_extreme_triangles;  /**< What is baked. */
 extern const nook_extreme_group nook_extreme_memory;     /**< What baking takes. */
 extern const nook_extreme_group nook_extreme_spinning;   /**< A body that turns for a million frames. */
 extern const nook_extreme_group nook_extreme_volumes;    /**< Sizes and shapes of volumes. */
+extern const nook_extreme_group nook_extreme_occluders;  /**< Many at once. */
