@@ -257,6 +257,7 @@ static void test_techniques_never_write_nan_whatever_the_buffers_hold(void **sta
     nook_fixture_mesh_free(&mesh);
     ao_view_param(view, "ao.scale", "full");
     ao_view_param(view, "ao.filter", "disc");
+    ao_view_param(view, "gtao.thickness", "0.5");
     for (size_t k = 0; k < NOOK_COUNT(techniques) * 3; k++) {
         nook_ao_set_param(view->ao, "ao.r_max", k % 3 == 0 ? 1e-9 : k % 3 == 1 ? 1.0 : 1e9);
         draw_absurdities(view);

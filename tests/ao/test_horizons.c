@@ -43,8 +43,8 @@ static int converge(void **state)
     ao_view_resize(view, SIDE, SIDE);
     view->index = 0;
     set(view, "ao.scale", 0);
-    set(view, "gtao.slices", 16), set(view, "gtao.steps", 64), set(view, "gtao.thickness", 0);
-    set(view, "hbao.directions", 32), set(view, "hbao.steps", 64), set(view, "hbao.bias", 0);
+    set(view, "gtao.slices", 8), set(view, "gtao.steps", 48), set(view, "gtao.thickness", 0);
+    set(view, "hbao.directions", 16), set(view, "hbao.steps", 48), set(view, "hbao.bias", 0);
     set(view, "reference.rays", 256);
     return 0;
 }
@@ -88,6 +88,19 @@ static void test_a_pit_tells_the_cosine_from_the_solid_angle(void **state)
         expect_near("gtao", ao_screen_measure_centre(view, "gtao"), d * d / (1 + d * d), 0.015); /* 0.5 for d = 1 */
         expect_near("hbao", ao_screen_measure_centre(view, "hbao"), d / sqrt(1 + d * d), 0.015); /* 0.7071 */
     }
+}
+
+/* The line of sight is 37 degrees off -Z in the middle of this picture: slices around -Z would not hold the eye. */
+static void test_a_pit_reads_the_same_at_the_edge_of_a_wide_picture(void **state)
+{
+    nook_fixture_view *view = *state;
+    nook_fixture_mesh mesh = { 0 };
+    ao_screen_look(view, (double[]){ 3, 0, 4 }, (double[]){ 3, 0, 0 }, 1.0, 2.5);
+    view->clip_from_view.m[8] = -0.75 * view->clip_from_view.m[0];
+    ao_screen_add_pit(&mesh, 1.0, 1.0);
+    ao_screen_show(view, &mesh);
+    expect_near("gtao", ao_screen_measure_centre(view, "gtao"), 0.5, 0.02);
+    expect_near("hbao", ao_screen_measure_centre(view, "hbao"), sqrt(0.5), 0.02);
 }
 
 static void test_an_open_plane_is_open_at_every_tilt(void **state)
@@ -153,9 +166,10 @@ static void test_gtao_follows_the_falloff_in_a_corner(void **state)
 static void test_both_follow_the_falloff_in_a_pit(void **state)
 {
     nook_fixture_view *view = look_into_pit(state, 1.0, 4.0);
+    set(view, "gtao.steps", 96), set(view, "hbao.steps", 192); /* hbao: the error is of first order in the step */
     ao_view_param(view, "ao.falloff", "linear");
     expect_near("gtao, linear", ao_screen_measure_centre(view, "gtao"), 0.5 - 0.5 * (1 - sqrt(0.5)), 0.03);
-    expect_near("hbao, linear", ao_screen_measure_centre(view, "hbao"), sqrt(0.5) - pi / 16, 0.05);
+    expect_near("hbao, linear", ao_screen_measure_centre(view, "hbao"), sqrt(0.5) - pi / 16, 0.03);
     ao_view_param(view, "ao.falloff", "quadratic");
     expect_near("gtao, quadratic", ao_screen_measure_centre(view, "gtao"), 0.5 + 0.125 * log(sqrt(0.5)), 0.03);
 }
@@ -173,20 +187,22 @@ static void test_a_trench_that_the_camera_sees_whole(void **state)
     expect_near("hbao", ao_screen_measure_centre(view, "hbao"), 2 * atan(1 / 0.6) / pi, 0.06);
 }
 
-/** RMS difference between two images of SIDE * SIDE visibilities. */
-static double distance_of(const float *a, const float *b)
+/** RMS difference between an image and the view's. */
+static double distance_from(const float *image, const nook_fixture_view *view)
 {
+    size_t pixels = (size_t)view->width * view->height;
     double sum = 0.0;
-    for (size_t i = 0; i < SIDE * SIDE; i++)
-        sum += (a[i] - b[i]) * (a[i] - b[i]);
-    return sqrt(sum / (SIDE * SIDE));
+    for (size_t i = 0; i < pixels; i++)
+        sum += (image[i] - view->visibility[i]) * (image[i] - view->visibility[i]);
+    return sqrt(sum / (double)pixels);
 }
 
 static void test_more_slices_and_steps_come_nearer_to_the_limit(void **state)
 {
-    static const double counts[][2] = { { 1, 2 }, { 2, 4 }, { 4, 12 }, { 12, 48 }, { 48, 160 } };
+    static const double counts[][2] = { { 1, 2 }, { 2, 4 }, { 4, 12 }, { 12, 40 }, { 32, 128 } };
     static const char *const names[][2] = { { "gtao.slices", "gtao.steps" }, { "hbao.directions", "hbao.steps" } };
-    float limit[SIDE * SIDE];
+    float limit[SIDE * SIDE / 4];
+    ao_view_resize(*state, SIDE / 2, SIDE / 2);
     nook_fixture_view *view = look_into_pit(state, 1.0, 2.5);
     for (size_t k = 0; k < NOOK_COUNT(techniques); k++) {
         double before = INFINITY;
@@ -197,7 +213,7 @@ static void test_more_slices_and_steps_come_nearer_to_the_limit(void **state)
                 memcpy(limit, view->visibility, sizeof limit);
                 continue;
             }
-            double error = distance_of(view->visibility, limit);
+            double error = distance_from(limit, view);
             if (before == INFINITY && error > 0.02)
                 fail_msg("%s: %.4f from the limit with a quarter of its samples", techniques[k], error);
             if (before < INFINITY && error < 1.3 * before)
@@ -276,7 +292,7 @@ static void test_frames_repeat_by_their_index_and_differ_between_indices(void **
         memcpy(first, view->visibility, sizeof first);
         view->index = 8;
         ao_view_record(view, techniques[k]);
-        assert_true(distance_of(first, view->visibility) > 0.01);
+        assert_true(distance_from(first, view) > 0.01);
         view->index = 7;
         ao_view_record(view, techniques[k]);
         assert_memory_equal(first, view->visibility, sizeof first);
@@ -334,6 +350,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup(test_a_pit_tells_the_cosine_from_the_solid_angle, converge),
+        cmocka_unit_test_setup(test_a_pit_reads_the_same_at_the_edge_of_a_wide_picture, converge),
         cmocka_unit_test_setup(test_an_open_plane_is_open_at_every_tilt, converge),
         cmocka_unit_test_setup(test_corners_of_any_angle_read_as_truth_and_as_solid_angle, converge),
         cmocka_unit_test_setup(test_gtao_follows_the_falloff_in_a_corner, converge),

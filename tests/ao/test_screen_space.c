@@ -29,8 +29,8 @@ static nook_fixture_view *look(void **state, const double eye[3], const double t
 {
     static const char *const settings[][2] = {
         { "ssao.samples", "256" },  { "hsao.directions", "32" }, { "hsao.steps", "64" }, { "hsao.rays", "4" },
-        { "hsao.ray_steps", "32" }, { "hbao.directions", "32" }, { "hbao.steps", "64" }, { "gtao.slices", "16" },
-        { "gtao.steps", "64" },     { "reference.rays", "256" },
+        { "hsao.ray_steps", "32" }, { "hbao.directions", "16" }, { "hbao.steps", "48" }, { "gtao.slices", "8" },
+        { "gtao.steps", "48" },     { "reference.rays", "256" },
     };
     nook_fixture_view *view = *state;
     for (size_t i = 0; i < NOOK_COUNT(settings); i++)
