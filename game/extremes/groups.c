@@ -8,6 +8,7 @@ static const nook_extreme_group *const groups[] = {
     &nook_extreme_surfaces,
     &nook_extreme_volumes,
     &nook_extreme_occluders,
+    &nook_extreme_filter,
     &nook_extreme_triangles,
     &nook_extreme_memory,
     &nook_extreme_spinning,

@@ -11,3 +11,4 @@ extern const nook_extreme_group nook_extreme_memory;     /**< What baking takes.
 extern const nook_extreme_group nook_extreme_spinning;   /**< A body that turns for a million frames. */
 extern const nook_extreme_group nook_extreme_volumes;    /**< Sizes and shapes of volumes. */
 extern const nook_extreme_group nook_extreme_occluders;  /**< Many at once. */
+extern const nook_extreme_group nook_extreme_filter;     /**< Filter and upscaling alone. */

@@ -139,6 +139,8 @@ float filtered(vec2 centre, Guide guide, ivec2 p)
         add_disc(mean, guide, centre, p);
     else if (frame.filter_kind == FILTER_TILE)
         add_tile(mean, guide, centre);
+    if (frame.filter_kind == FILTER_DISC && mean.weights <= 0.0)
+        add_tile(mean, guide, centre); // a wide disc can miss what lies close by
     if (frame.filter_kind != FILTER_NONE && mean.weights <= 0.0)
         add_around(mean, guide, centre);
     return mean.weights > 0.0 ? mean.reference + mean.sum / mean.weights : mean.reference;
