@@ -48,6 +48,7 @@ static void write_row(nook_json *json, const nook_result_row *row)
 {
     nook_json_begin_object(json);
     write_place(json, row->scene, row->camera, row->width, row->height, row->r_max, row->falloff);
+    nook_json_member_string(json, "scene_hash", row->scene_hash);
     nook_json_member_number(json, "r_max_part", row->r_max_part);
     nook_json_member_string(json, "setting", row->setting);
     nook_json_member_string(json, "technique", row->technique);

@@ -16,6 +16,8 @@ static int compare_views(const nook_result_row *a, const nook_result_row *b)
 {
     int order = strcmp(a->scene, b->scene);
     if (order == 0)
+        order = strcmp(a->scene_hash, b->scene_hash); /* one name, changed content: another scene */
+    if (order == 0)
         order = compare_numbers(a->r_max, b->r_max);
     if (order == 0)
         order = compare_numbers(a->width, b->width);

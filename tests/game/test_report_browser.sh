@@ -116,6 +116,53 @@ test_error_colours_are_those_of_the_sheets() {
         END { exit !(NR == 35 && !bad) }'
 }
 
+# count SELECTOR
+count() { browser_run "return document.querySelectorAll(\`$1\`).length"; }
+
+choose() { # ID VALUE: of a select
+    browser_run "const select = document.getElementById('$1'); select.value = \`$2\`; select.dispatchEvent(new Event('change'));" >/dev/null
+}
+
+test_charts_show_all_settings_and_pin_by_mouse_and_keyboard() {
+    with_report pages
+    equals "$(count '#chart_ms .sign') $(count '#chart_fetches .sign') $(count '#chart_ms .front')" '18 18 1'
+    equals "$(count '#pinned tbody tr') $(count '#chart_ms .ring')" '3 3' # as they come
+    browser_keys '#chart_ms' "$arrow_left" # the dearest one
+    assert_holds "$(browser_run "return document.querySelector('#tooltip').textContent")" 'volume rays=5'
+    assert_holds "$(browser_run "return document.querySelector('#spoken').textContent")" 'volume rays=5: ms '
+    browser_keys '#chart_ms' "$enter"
+    equals "$(browser_run "return [...document.querySelectorAll('#pinned tbody code')].pop().textContent")" 'volume rays=5'
+    equals "$(browser_run "return document.querySelector('#right_picture').value")" 'setting volume rays=5'
+    browser_run "
+        const svg = document.querySelector('#chart_fetches'), frame = svg.getBoundingClientRect();
+        const point = charts.chart_fetches.points.find(point => point.row.setting === 'ssao rays=5');
+        svg.dispatchEvent(new MouseEvent('click', { clientX: frame.left + point.x + 3, clientY: frame.top + point.y - 3 }));" >/dev/null
+    equals "$(count '#pinned tbody tr')" 5
+    browser_click '#pinned tbody tr:last-child button'
+    equals "$(count '#pinned tbody tr')" 4
+    browser_click '#techniques button[aria-pressed=true]'
+    equals "$(count '#chart_ms .sign')" 12
+    equals "$(browser_complaints)" ''
+}
+
+test_choices_hold_for_all_that_is_shown() {
+    with_report pages
+    choose scene '</script><b>&"'
+    choose camera 'camera 2'
+    assert_holds "$(browser_run "return document.querySelector('#pictures_of').textContent")" 'camera 2'
+    choose table_scope view
+    equals "$(browser_run "return document.querySelector('#table_count').textContent")" '19 of 76 rows'
+    equals "$(count '#table th[data-key=scene], #table th[data-key=camera]')" 0 # they say nothing here
+    choose error ssim
+    assert_holds "$(browser_run "return document.querySelector('#chart_ms').textContent")" '1 - SSIM'
+    equals "$(count '#extremes tbody tr') $(count '#limits tbody tr')" '3 2'
+    choose right_picture truth
+    choose camera 'camera 1'
+    browser_click '#extremes tbody tr:first-child button' # goes to where that was measured: further cameras are worse
+    equals "$(browser_run "return document.querySelector('#right_picture').value + ' ' + document.querySelector('#camera').value")" 'setting volume camera 2'
+    equals "$(browser_complaints)" ''
+}
+
 test_thousands_of_rows_are_drawn_as_they_are_scrolled_to() {
     with_report large
     equals "$(browser_run "return document.querySelector('#table_count').textContent")" '3010 of 3010 rows'

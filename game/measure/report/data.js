@@ -33,6 +33,11 @@ function describe_reach(row) {
   return [describe_r_max(row), row.falloff, describe_size(row)].join(", ");
 }
 
+// One name with changed content is another scene; which of them a site's pictures show is not known, so neither gets them.
+const hashes_of = new Map();
+for (const row of rows) hashes_of.set(row.scene, (hashes_of.get(row.scene) || new Set()).add(row.scene_hash));
+for (const row of rows.filter(row => hashes_of.get(row.scene).size > 1)) row.scene += ` (content ${row.scene_hash.slice(0, 4)})`;
+
 const many_falloffs = unique(rows.map(row => row.falloff)).length > 1, many_sizes = unique(rows.map(describe_size)).length > 1;
 
 function reach_key(place) {
