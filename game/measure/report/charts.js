@@ -100,7 +100,7 @@ function draw_limit(chart, limit) {
   const place = chart.y.place(limit);
   if (place < chart.box.top) return;
   chart.svg.append(make_svg(chart.svg, "line", { class: "limit", x1: chart.box.left, x2: chart.box.right, y1: place, y2: place }),
-    make_svg(chart.svg, "text", { class: "limit_label", x: chart.box.right, y: place - 4, "text-anchor": "end" }, "perfect, but sees only the depth buffer"));
+    make_svg(chart.svg, "text", { class: "limit_label", x: chart.box.right, y: place - 4, "text-anchor": "end" }, "limit of the depth buffer"));
 }
 
 function draw_points(chart, pinned) {
@@ -136,9 +136,9 @@ function draw_chart(svg, options) {
     return chart;
   }
   draw_axes(chart);
+  draw_limit(chart, options.limit);
   draw_front(chart, find_front(shown, cost_of, error_of));
   draw_points(chart, options.pinned);
-  draw_limit(chart, options.limit);
   chart.pointer = make_svg(svg, "circle", { class: "pointer", r: 13, visibility: "hidden" });
   svg.append(chart.pointer);
   return chart;
