@@ -184,7 +184,7 @@ static void put_front_row(FILE *out, const nook_summary_row *row)
 
 static nook_result put_front_table(FILE *out, const nook_summary_view *view)
 {
-    const nook_summary_row **front = malloc(view->row_count * sizeof *front);
+    const nook_summary_row **front = malloc(view->row_count * sizeof(const nook_summary_row *));
     size_t count = 0;
     if (!front)
         return nook_fail(NOOK_E_MEMORY, "no memory for the front of %zu settings", view->row_count);
@@ -192,7 +192,7 @@ static nook_result put_front_table(FILE *out, const nook_summary_view *view)
         if (view->rows[i].on_front)
             front[count++] = &view->rows[i];
     }
-    qsort(front, count, sizeof *front, compare_ms);
+    qsort(front, count, sizeof(const nook_summary_row *), compare_ms);
     fprintf(out,
             "\nThe front: of %zu settings, the %zu that no other beats in both time and RMSE:\n\n"
             "| ms | fetches | RMSE | bias | p99 | SSIM | setting |\n|---:|---:|---:|---:|---:|---:|---|\n",

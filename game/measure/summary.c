@@ -151,7 +151,7 @@ static void gather(const nook_result_row *const *sorted, size_t count, double *v
 nook_result nook_summary_create(const nook_results *results, nook_summary *out_summary)
 {
     size_t count = results->row_count;
-    const nook_result_row **sorted = malloc((count + 1) * sizeof *sorted);
+    const nook_result_row **sorted = malloc((count + 1) * sizeof(const nook_result_row *));
     double *values = malloc((count + 1) * sizeof *values);
     nook_summary summary = { .views = calloc(count + 1, sizeof *summary.views),
                              .rows = calloc(count + 1, sizeof *summary.rows) };
@@ -161,7 +161,7 @@ nook_result nook_summary_create(const nook_results *results, nook_summary *out_s
     if (result == NOOK_OK) {
         for (size_t i = 0; i < count; i++)
             sorted[i] = &results->rows[i];
-        qsort(sorted, count, sizeof *sorted, compare_rows);
+        qsort(sorted, count, sizeof(const nook_result_row *), compare_rows);
         gather(sorted, count, values, &summary);
     }
     for (size_t i = 0; i < summary.view_count && result == NOOK_OK; i++)

@@ -197,6 +197,23 @@ test_report_loads_sorts_wipes_and_draws_errors() {
     equals "$(browser_complaints)" '' # nor afterwards
 }
 
+test_report_of_a_real_measurement_loads_and_shows_it() {
+    browser_need
+    mkdir -p "$tmp/real"
+    printf 'size = 64x40\nr_max = 0.1\nnoise = 0.05\n[volume]\nresolution = 32\n[ssao]\nsamples = 4\n[reference]\nsees = screen\n' >"$tmp/sweep.txt"
+    "$program" measure tests/game/data/crate.gltf --backend osmesa --cache "$tmp/cache" --sweep "$tmp/sweep.txt" --out "$tmp/real" \
+        >"$tmp/real.log" 2>&1 || { cat "$tmp/real.log"; return 1; }
+    with_report real
+    browser_run "$wait_for_pictures" >/dev/null
+    browser_run 'await settled();' >/dev/null
+    equals "$(count '#table tbody tr') $(count '#chart_ms .sign') $(count '#chart_ms .limit') $(count '#maps canvas') $(count '#limits tbody tr')" '5 4 1 2 1'
+    equals "$(browser_run "return [...document.querySelectorAll('#left_picture option')].map(option => option.value).join()")" \
+        'truth,screen,lit,geometry,setting volume,setting volume resolution=32,setting ssao,setting ssao samples=4,setting reference sees=screen'
+    browser_run "return document.querySelector('#pinned').textContent" >"$tmp/pinned"
+    ! grep -q 'NaN\|undefined' "$tmp/pinned"
+    equals "$(browser_complaints)" ''
+}
+
 # Test of the test: a report without its script must pass none of it.
 test_a_report_without_its_script_fails_each_check() {
     with_report pages

@@ -79,7 +79,7 @@ static void test_what_stands_outside_the_marks_stays(void **state)
     assert_string_equal((const char *)again.bytes, text);
     nook_file_free(&again);
     nook_file_free(&file);
-    nook_results_fixture_free(&results);
+    nook_results_free(&results);
 }
 
 static void test_tables_hold_the_numbers(void **state)
@@ -102,7 +102,7 @@ static void test_tables_hold_the_numbers(void **state)
     assert_non_null(strstr(find_line(&file, "\n| 12.3 | 101 | 0.0124 "), "`volume` as it comes |")); /* the front */
     assert_non_null(find_line(&file, "| `reference sees=screen` | 5.43e+04"));
     nook_file_free(&file);
-    nook_results_fixture_free(&results);
+    nook_results_free(&results);
 }
 
 static void test_front_goes_from_fast_to_slow_and_from_wrong_to_right(void **state)
@@ -125,7 +125,7 @@ static void test_front_goes_from_fast_to_slow_and_from_wrong_to_right(void **sta
     }
     assert_true(count > 3);
     nook_file_free(&file);
-    nook_results_fixture_free(&results);
+    nook_results_free(&results);
 }
 
 static void test_names_cannot_break_the_tables(void **state)
@@ -139,7 +139,7 @@ static void test_names_cannot_break_the_tables(void **state)
     assert_non_null(find_line(&file, "### a\\|b\\_c, "));
     assert_non_null(find_line(&file, "| `volume  x y` | "));
     nook_file_free(&file);
-    nook_results_fixture_free(&results);
+    nook_results_free(&results);
 }
 
 static void test_nothing_measured_is_said(void **state)
@@ -161,7 +161,7 @@ static const char *assert_refused(const char *path, nook_result expected)
     nook_log_capture_end();
     assert_int_equal(result, expected);
     assert_int_equal(said.errors, 1);
-    nook_results_fixture_free(&results);
+    nook_results_free(&results);
     return said.text;
 }
 

@@ -88,7 +88,7 @@ static void test_report_is_one_file_without_addresses(void **state)
     assert_int_equal(count_text(text, "\"numbers\": ["), results.row_count);
     assert_int_equal(count_text(text, "data-picture=\""), 2 * 2 * (3 * 6 + 4));
     nook_file_free(&file);
-    nook_results_fixture_free(&results);
+    nook_results_free(&results);
 }
 
 static void test_names_cannot_end_an_element_of_the_report(void **state)
@@ -103,7 +103,7 @@ static void test_names_cannot_end_an_element_of_the_report(void **state)
     assert_non_null(strstr(text, "<title>Nook measurements: hall, &lt;/script&gt;&lt;b&gt;&amp;&quot;</title>"));
     assert_non_null(strstr(text, "\"./nook measure --scenes \\\"a & b\\\"\""));
     nook_file_free(&file);
-    nook_results_fixture_free(&results);
+    nook_results_free(&results);
 }
 
 static void rename_scene(nook_results *results, const char *name)
@@ -127,7 +127,7 @@ static void test_line_ends_that_only_script_knows_are_escaped(void **state)
     assert_non_null(strstr(data, "\"a\\u2028b\\u2029c\xE2\x82\xAC \\u003c!-- \xEF\xBF\xBD\""));
     assert_null(strstr(data, "\xE2\x80\xA8"));
     nook_file_free(&file);
-    nook_results_fixture_free(&results);
+    nook_results_free(&results);
 }
 
 /* ---- pictures ---- */
@@ -193,7 +193,7 @@ static void test_pictures_are_in_the_report_byte_for_byte(void **state)
         nook_file_free(&pngs[i]);
     }
     nook_file_free(&file);
-    nook_results_fixture_free(&results);
+    nook_results_free(&results);
 }
 
 static void test_missing_pictures_are_one_line_and_the_report_is_written(void **state)
@@ -215,7 +215,7 @@ static void test_missing_pictures_are_one_line_and_the_report_is_written(void **
     assert_non_null(strstr(said.text, results.rows[1].picture));
     assert_int_equal(count_text((const char *)file.bytes, "data-picture=\""), 11);
     nook_file_free(&file);
-    nook_results_fixture_free(&results);
+    nook_results_free(&results);
 }
 
 /* A picture of that many bytes that begins like one. */
@@ -259,7 +259,7 @@ static void test_pictures_over_the_limit_are_left_out_last_choices_first(void **
     assert_false(report_names(&file, other->picture));
     assert_true(report_names(&file, results.rows[11].picture)); /* what still fits comes after it */
     nook_file_free(&file);
-    nook_results_fixture_free(&results);
+    nook_results_free(&results);
 }
 
 /* ---- what can go wrong ---- */
@@ -315,7 +315,7 @@ static void test_large_report_is_written(void **state)
     assert_int_equal(results.row_count, 3010);
     assert_int_equal(count_text((const char *)file.bytes, "\"numbers\": ["), 3010);
     nook_file_free(&file);
-    nook_results_fixture_free(&results);
+    nook_results_free(&results);
 }
 
 /* The script draws errors in the colours of modules/measure/colour_map.h: they are held together there. */

@@ -128,7 +128,7 @@ static void test_settings_are_summed_up_over_the_cameras_of_their_view(void **st
     assert_true(fabs(gtao->sample.truth.bias - bias / 3.0) < 1e-12);
     assert_true(gtao->sample.truth.max == largest);
     nook_summary_free(&summary);
-    nook_results_fixture_free(&results);
+    nook_results_free(&results);
 }
 
 static const nook_summary_row *find_row(const nook_summary *summary, const char *setting)
@@ -163,7 +163,7 @@ static void test_truths_and_settings_that_miss_a_camera_are_on_no_front(void **s
     assert_int_equal(find_row(&summary, "volume rays=1")->cameras, 2);
     assert_true(find_row(&summary, "volume rays=1")->on_front);
     nook_summary_free(&summary);
-    nook_results_fixture_free(&results);
+    nook_results_free(&results);
 }
 
 static void test_noise_of_the_truth_stands_beside_the_smallest_error(void **state)
@@ -179,7 +179,7 @@ static void test_noise_of_the_truth_stands_beside_the_smallest_error(void **stat
     assert_true(summary.views[0].largest_noise == 0.0625);
     assert_true(summary.views[0].smallest_rmse == 0.001);
     nook_summary_free(&summary);
-    nook_results_fixture_free(&results);
+    nook_results_free(&results);
 }
 
 static void test_nothing_measured_is_no_view(void **state)

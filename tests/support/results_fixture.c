@@ -208,24 +208,3 @@ void nook_results_fixture_make(const nook_results_fixture *fixture, nook_results
     }
     *out_results = results;
 }
-
-void nook_results_fixture_free(nook_results *results)
-{
-    for (size_t i = 0; i < results->row_count; i++) {
-        nook_result_row *row = &results->rows[i];
-        char *const texts[] = { row->scene,     row->scene_hash, row->camera,  row->falloff, row->setting,
-                                row->technique, row->build,      row->machine, row->date,    row->picture };
-        for (size_t text = 0; text < NOOK_COUNT(texts); text++)
-            free(texts[text]);
-    }
-    for (size_t i = 0; i < results->site_count; i++) {
-        nook_result_site *site = &results->sites[i];
-        char *const texts[] = { site->scene,  site->camera,   site->falloff, site->truth,
-                                site->screen, site->geometry, site->lit };
-        for (size_t text = 0; text < NOOK_COUNT(texts); text++)
-            free(texts[text]);
-    }
-    free(results->rows);
-    free(results->sites);
-    *results = (nook_results){ 0 };
-}

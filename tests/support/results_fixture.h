@@ -16,10 +16,10 @@ typedef struct nook_results_fixture {
 
 /**
  * Rows for every scene x camera x technique x setting, and one row a site of the reference that sees the screen only. More rays
- * cost more and err less; numbers are the same at every call. What is wrong is asserted.
+ * cost more and err less; numbers are the same at every call. Free
+ * them with nook_results_free.
  */
 void nook_results_fixture_make(const nook_results_fixture *fixture, nook_results *out_results);
-void nook_results_fixture_free(nook_results *results);
 
 /** Visibility of a made-up picture at a pixel, top row first. Settings add to the truth, which is setting 0. */
 double nook_results_fixture_visibility(uint32_t camera, uint32_t setting, double x, double y);
