@@ -76,6 +76,17 @@ static nook_result read_lines(const char *path, const char *text, size_t size, n
     return result;
 }
 
+/* Those that were removed after their row was written. */
+static void forget_pictures(const char *folder, nook_results *results)
+{
+    for (size_t i = 0; i < results->row_count; i++) {
+        char path[4096];
+        nook_result_row *row = &results->rows[i];
+        if (!nook_file_exists(nook_path_join(path, sizeof path, folder, row->picture)))
+            row->picture[0] = '\0';
+    }
+}
+
 nook_result nook_results_read(const char *folder, nook_results *out_results)
 {
     char path[4096];
@@ -91,6 +102,7 @@ nook_result nook_results_read(const char *folder, nook_results *out_results)
         return result;
     result = read_lines(path, (const char *)file.bytes, file.size, &results);
     nook_file_free(&file);
+    forget_pictures(folder, &results);
     if (result == NOOK_OK)
         *out_results = results;
     else

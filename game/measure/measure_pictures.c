@@ -2,11 +2,14 @@
 #include "engine/core/file.h"
 #include "engine/core/log.h"
 #include "game/exposure.h"
+#include "game/measure/summary.h"
 #include <ctype.h>
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 #include <xxhash.h>
 
 enum { NAME_CAPACITY = 96 /* of a part of a path that people read */ };
@@ -126,4 +129,68 @@ nook_result nook_measure_site_write(nook_stage *stage, const nook_site *site, co
                                     .geometry = paths->geometry,
                                     .lit = paths->lit };
     return NOOK_OK;
+}
+
+/* ---- Those that stay -------------------------------------------------------------------------------------------- */
+
+/* The rows of a site. */
+typedef struct site_rows {
+    nook_result_row **rows;
+    double *times, *fetches, *errors;
+    bool *on_front; /* twice as many: of times, then of fetches */
+    size_t count;
+} site_rows;
+
+static bool is_truth(const nook_result_row *row)
+{
+    return strcmp(row->technique, NOOK_SUMMARY_REFERENCE) == 0;
+}
+
+static nook_result gather(nook_results *results, const nook_result_row *like, site_rows *out)
+{
+    size_t most = results->row_count + 1;
+    out->rows = calloc(most, sizeof *out->rows);
+    out->times = calloc(most, 3 * sizeof *out->times);
+    out->on_front = calloc(most, 2 * sizeof *out->on_front);
+    if (!out->rows || !out->times || !out->on_front)
+        return nook_fail(NOOK_E_MEMORY, "no memory for the front of a site");
+    out->fetches = out->times + most;
+    out->errors = out->fetches + most;
+    for (size_t i = 0; i < results->row_count; i++) {
+        nook_result_row *row = &results->rows[i];
+        if (!nook_result_row_same_site(row, like))
+            continue;
+        out->rows[out->count] = row;
+        out->times[out->count] = row->sample.ms_median;
+        out->fetches[out->count] = row->sample.fetches;
+        out->errors[out->count++] = is_truth(row) ? NAN : row->sample.truth.rmse;
+    }
+    return NOOK_OK;
+}
+
+static void remove_picture(nook_result_row *row, const char *folder)
+{
+    char path[4096];
+    if (row->picture[0])
+        unlink(nook_path_join(path, sizeof path, folder, row->picture));
+    row->picture[0] = '\0';
+}
+
+nook_result nook_measure_pictures_prune(nook_results *results, const nook_result_row *like, const char *folder)
+{
+    site_rows site = { 0 };
+    nook_result result = gather(results, like, &site);
+    if (result == NOOK_OK)
+        result = nook_front_mark(site.times, site.errors, site.count, site.on_front);
+    if (result == NOOK_OK)
+        result = nook_front_mark(site.fetches, site.errors, site.count, site.on_front + site.count);
+    for (size_t i = 0; i < site.count && result == NOOK_OK; i++) {
+        bool front = site.on_front[i] || site.on_front[site.count + i];
+        if (!front && !site.rows[i]->initial && !is_truth(site.rows[i]))
+            remove_picture(site.rows[i], folder);
+    }
+    free(site.rows);
+    free(site.times);
+    free(site.on_front);
+    return result;
 }

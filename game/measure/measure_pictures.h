@@ -28,3 +28,11 @@ typedef struct nook_measure_site_paths {
 nook_result nook_measure_site_write(nook_stage *stage, const nook_site *site, const nook_camera *camera,
                                     const nook_result_row *row, const char *folder, nook_measure_site_paths *paths,
                                     nook_result_site *out_site);
+
+/**
+ * Removes the pictures of a site's rows that nobody looks for: all but those of initial settings, of the reference, and of what is on
+ * the front of error against time or against fetches. Their rows then have none.
+ * @param like  names the site
+ * @return NOOK_E_MEMORY
+ */
+nook_result nook_measure_pictures_prune(nook_results *results, const nook_result_row *like, const char *folder);

@@ -75,13 +75,25 @@ static nook_result open_site(reach *r, uint32_t view)
     return result == NOOK_OK && !nook_interrupt_asked() ? write_site(r, view) : result;
 }
 
-/* Pictures of truths that have become better since they were written. */
+/* Pictures of truths that have become better since they were written; and none that nobody looks for. */
+static nook_result finish_site(reach *r, uint32_t view)
+{
+    char text[NOOK_SETTING_TEXT_MAX];
+    nook_result_row row = make_row(r, view, &r->run->sweep->settings[0], text);
+    nook_result result = NOOK_OK;
+    if (r->rays[view] != nook_site_rays(r->sites[view]))
+        result = write_site(r, view);
+    if (result == NOOK_OK && !r->run->sweep->all_pictures && !nook_interrupt_asked())
+        result = nook_measure_pictures_prune(r->run->results, &row, r->run->folder);
+    return result;
+}
+
 static nook_result finish_sites(reach *r)
 {
     nook_result result = NOOK_OK;
     for (uint32_t i = 0; i < r->views->count && result == NOOK_OK; i++) {
-        if (r->sites[i] && r->rays[i] != nook_site_rays(r->sites[i]))
-            result = write_site(r, i);
+        if (r->sites[i])
+            result = finish_site(r, i);
     }
     return result;
 }

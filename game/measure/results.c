@@ -11,11 +11,15 @@ static bool same_text(const char *a, const char *b)
     return strcmp(a, b) == 0;
 }
 
+bool nook_result_row_same_site(const nook_result_row *a, const nook_result_row *b)
+{
+    return a->width == b->width && a->height == b->height && a->r_max == b->r_max && same_text(a->camera, b->camera) &&
+           same_text(a->scene_hash, b->scene_hash) && same_text(a->falloff, b->falloff);
+}
+
 static bool same_row(const nook_result_row *a, const nook_result_row *b)
 {
-    return a->width == b->width && a->height == b->height && a->r_max == b->r_max &&
-           same_text(a->setting, b->setting) && same_text(a->camera, b->camera) &&
-           same_text(a->scene_hash, b->scene_hash) && same_text(a->falloff, b->falloff);
+    return same_text(a->setting, b->setting) && nook_result_row_same_site(a, b);
 }
 
 static bool same_site(const nook_result_site *a, const nook_result_site *b)

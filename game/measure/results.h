@@ -44,11 +44,14 @@ typedef struct nook_results {
 } nook_results;
 
 /**
- * Reads a folder's journal; a line cut short by an interruption is left out (and said).
+ * Reads a folder's journal; a line cut short by an interruption is left out (and said). Pictures that are not there any more are "".
  * @return NOOK_E_FORMAT a line that is no row, NOOK_E_IO, NOOK_E_MEMORY; a folder without one is no failure
  */
 nook_result nook_results_read(const char *folder, nook_results *out_results);
 void nook_results_free(nook_results *results); /**< Zeroed ones are allowed. */
+
+/** Whether both were measured at one site: the same scene content, camera, size, r_max and falloff. */
+bool nook_result_row_same_site(const nook_result_row *a, const nook_result_row *b);
 
 /** A row of the same scene content, camera, size, r_max, falloff and setting, whatever measured it; or NULL. */
 const nook_result_row *nook_results_find(const nook_results *results, const nook_result_row *like);

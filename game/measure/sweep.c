@@ -106,13 +106,22 @@ static nook_result read_rays_max(reading *r, char *text)
     return NOOK_OK;
 }
 
+static nook_result read_pictures(reading *r, char *text)
+{
+    r->sweep.all_pictures = strcmp(text, "all") == 0;
+    if (!r->sweep.all_pictures && strcmp(text, "front") != 0)
+        return nook_fail(NOOK_E_FORMAT, "%s: pictures %s; give all or front", r->where, text);
+    return NOOK_OK;
+}
+
 static nook_result read_general(reading *r, const char *name, char *value)
 {
     static const struct {
         const char *name;
         nook_result (*read)(reading *r, char *text);
-    } lines[] = { { "size", read_size },       { "r_max", read_r_max }, { "falloff", read_falloff },
-                  { "cameras", read_cameras }, { "noise", read_noise }, { "rays_max", read_rays_max } };
+    } lines[] = { { "size", read_size },        { "r_max", read_r_max }, { "falloff", read_falloff },
+                  { "cameras", read_cameras },  { "noise", read_noise }, { "rays_max", read_rays_max },
+                  { "pictures", read_pictures } };
     for (size_t i = 0; i < NOOK_COUNT(lines); i++) {
         if (strcmp(lines[i].name, name) != 0)
             continue;
@@ -123,7 +132,7 @@ static nook_result read_general(reading *r, const char *name, char *value)
     }
     return nook_fail(NOOK_E_FORMAT,
                      "%s: %s is nothing of a sweep before its first [technique]; there are size, r_max, falloff, "
-                     "cameras, noise, rays_max",
+                     "cameras, noise, rays_max, pictures",
                      r->where, name);
 }
 

@@ -8,6 +8,7 @@
  *   cameras = scene 2               the scene's first two; sampled ones (game/cameras/sample.h) where it has fewer
  *   noise   = 0.004                 of the truth, RMS of visibility, to begin with
  *   rays_max = 16384                of the truth, a pixel, at the most
+ *   pictures = front                of which rows: all, or those that a site's reader looks at (game/measure/measure_pictures.h)
  *
  *   [volume]                        every combination of these values, and the initial setting
  *   rays = 4 8 16
@@ -39,6 +40,7 @@ typedef struct nook_sweep {
     bool cameras_sampled;                        /**< None of the scene's own. */
     double noise;                                /**< > 0 */
     uint32_t rays_max;                           /**< At least 2. */
+    bool all_pictures;                           /**< Those of every row are kept. */
     nook_setting *settings;                      /**< Without the same twice; in the order of the file. Owned. */
     size_t setting_count;                        /**< At least 1. */
 } nook_sweep;

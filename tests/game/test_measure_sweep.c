@@ -74,7 +74,7 @@ static void test_what_is_measured_stands_before_the_blocks(void **state)
     (void)state;
     nook_sweep sweep =
         must_parse("# a comment\nsize = 64x36 # another\r\nr_max = 0.03\t0.5m 1e-1\nfalloff = hard linear\n"
-                   "cameras = sampled 3\nnoise = 0.01\nrays_max = 4096\n\n[ssao]\n");
+                   "cameras = sampled 3\nnoise = 0.01\nrays_max = 4096\npictures = all\n\n[ssao]\n");
     assert_int_equal(sweep.width, 64);
     assert_int_equal(sweep.height, 36);
     assert_int_equal(sweep.r_max_count, 3);
@@ -88,6 +88,7 @@ static void test_what_is_measured_stands_before_the_blocks(void **state)
     assert_true(sweep.cameras_sampled);
     assert_true(sweep.noise == 0.01);
     assert_int_equal(sweep.rays_max, 4096);
+    assert_true(sweep.all_pictures);
     nook_sweep_free(&sweep);
     sweep = must_parse("cameras = scene 2\n[ssao]");
     assert_int_equal(sweep.camera_count, 2);
@@ -120,6 +121,7 @@ static void test_what_is_wrong_is_said_with_file_and_line(void **state)
     must_refuse("cameras = scene 0\n[ssao]", "s.txt:1:", "scene N");
     must_refuse("noise = -1\n[ssao]", "s.txt:1:", "above 0");
     must_refuse("rays_max = 1\n[ssao]", "s.txt:1:", "2 to");
+    must_refuse("pictures = some\n[ssao]", "s.txt:1:", "front");
     must_refuse("noise = 0.1\nnoise = 0.2\n[ssao]", "s.txt:2:", "twice");
     must_refuse("samples = 4\n[ssao]", "s.txt:1:", "rays_max");
 }
