@@ -69,6 +69,11 @@ nook_result ao_targets_fit(nook_gpu *gpu, ao_targets *targets, uint32_t width, u
 void ao_targets_release(nook_gpu *gpu, ao_targets *targets);
 uint64_t ao_targets_bytes(const ao_targets *targets); /**< As they are now. */
 
+/**
+ * How far distances read from the host's depth may be off, from its format: out_error[0] * z + out_error[1] * z^2 metres at z metres.
+ */
+void ao_depth_error(nook_gpu *gpu, nook_ao_texture depth, const double clip_from_view[16], double out_error[2]);
+
 /** Composes this frame's marched occluders into ao->gpu_occluders. @return how many */
 uint32_t ao_collect_volumes(nook_ao *ao, const nook_matrix *view_from_world);
 /** Composes this frame's traced instances into ao->instances and ao->mesh_views. @return how many instances */

@@ -75,8 +75,10 @@ static void set_projection(const double p[16], frame_block *block)
     block->ray_offset[0] = (float)(p[8] / p[0]);
     block->ray_offset[1] = (float)(p[9] / p[5]);
     block->depth_to_distance[0] = (float)p[14];
-    block->depth_to_distance[1] = (float)p[10];
+    /* Counted from the background's depth, infinity, which is exact in float: near 1 the rounding of p10 alone would be off by
+       as much as a depth buffer of 24 bits. */
     block->depth_background = p[14] > 0.0 ? 0.0f : 1.0f;
+    block->depth_to_distance[1] = (float)(p[10] + (double)block->depth_background);
 }
 
 static frame_block make_block(const nook_ao *ao, const nook_ao_frame *frame, uint32_t scale)
@@ -239,6 +241,8 @@ nook_result nook_ao_record(nook_ao *ao, const nook_ao_frame *frame)
     if (result != NOOK_OK)
         return result;
     nook_ao_pass pass = make_pass(ao, slot, frame, instances, direct);
+    if (technique->inputs & NOOK_AO_IN_MESHES)
+        ao_depth_error(ao->gpu, frame->depth, frame->clip_from_view, pass.depth_error);
     bind_pass(&pass);
     result = technique->record(slot->state, slot->params, &pass);
     if (result == NOOK_OK && !direct)

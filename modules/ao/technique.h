@@ -69,6 +69,8 @@ typedef struct nook_ao_pass {
     uint32_t mesh_count;
     const nook_ao_mesh_instance *instances;
     uint32_t instance_count;
+    /** A distance z may be off by depth_error[0] * z + depth_error[1] * z^2 metres: the format of the host's depth. */
+    double depth_error[2];
 } nook_ao_pass;
 
 enum { NOOK_AO_IN_VOLUMES = 1, NOOK_AO_IN_MESHES = 2 };

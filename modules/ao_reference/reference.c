@@ -2,6 +2,7 @@
 #include "engine/core/jobs.h"
 #include "engine/core/log.h"
 #include "engine/core/surface.h"
+#include "engine/core/vector.h"
 #include "modules/ao/falloff.h"
 #include "modules/ao/sampling.h"
 #include "modules/ao_reference/depth_mesh_internal.h"
@@ -47,13 +48,16 @@ static void tangent_frame(vec3 n, mat3 frame)
 
 /**
  * Where rays start: the pixel's point, lifted along the normal past the rounding of its depth (24 bits, and as much again in
- * the rasteriser) and of Embree's own arithmetic, which grow with the distance from the camera.
+ * the rasteriser) and of Embree's own arithmetic, which grow with the distance from the camera; and past what a coarser depth
+ * buffer cannot tell, as far as that leads off the surface.
  */
 static void ray_origin(const nook_ao_pass *pass, uint32_t x, uint32_t y, double depth, const double n[3], float out[3])
 {
     double p[3];
     reference_pixel_position(pass, x, y, depth, p);
-    double lift = NOOK_SURFACE_ROUNDING * (fabs(p[0]) + fabs(p[1]) + fabs(p[2]));
+    double off = pass->depth_error[0] * depth + pass->depth_error[1] * depth * depth;
+    double facing = fabs(nook_vector_dot(p, n)) / depth;
+    double lift = fmax(NOOK_SURFACE_ROUNDING * (fabs(p[0]) + fabs(p[1]) + fabs(p[2])), off * facing);
     for (int axis = 0; axis < 3; axis++)
         out[axis] = (float)(p[axis] + n[axis] * lift);
 }

@@ -16,7 +16,7 @@ layout(std140, binding = 0) uniform Frame {
     float filter_radius;         // trace pixels
     float filter_depth;          // pixel footprints
     float filter_normal;         // exponent
-    vec2 depth_to_distance;      // distance = x / (device depth + y)
+    vec2 depth_to_distance;      // distance = x / (device depth - depth_background + y)
     float depth_background;      // device depth where nothing was drawn
     int filter_kind;             // ao.filter: 0 none, 1 disc, 2 tile
     vec4 view_from_world[3];     // rotation only: columns

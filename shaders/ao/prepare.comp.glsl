@@ -16,7 +16,7 @@ float distance_at(ivec2 p)
     if (any(lessThan(p, ivec2(0))) || any(greaterThanEqual(p, frame.full_size)))
         return 0.0;
     float d = texelFetch(device_depth, p, 0).r;
-    float distance = frame.depth_to_distance.x / (d + frame.depth_to_distance.y);
+    float distance = frame.depth_to_distance.x / ((d - frame.depth_background) + frame.depth_to_distance.y);
     bool seen = d != frame.depth_background && distance > NEAREST && distance < FARTHEST; // false for NaN
     return seen ? distance : 0.0;
 }
