@@ -135,6 +135,7 @@ static nook_result open_view(const nook_extremes *extremes, const nook_edge_scen
     nook_result result = nook_fixture_view_create(&view, &scene->view);
     if (result != NOOK_OK)
         return result;
+    scene->view->index = desc->frame_index;
     scene->pixels = (size_t)view.width * view.height;
     return NOOK_OK;
 }

@@ -18,6 +18,7 @@ typedef struct nook_edge_scene_desc {
     bool rows_down;                     /**< Row 0 is the top row: a flipped projection. */
     uint32_t depth_format;              /**< As in nook_fixture_view_desc. */
     uint32_t normal_format;             /**< As in nook_fixture_view_desc. */
+    uint32_t frame_index;               /**< Seeds the noise. */
     const nook_ao_technique *technique; /**< Added to those of the program. NULL: none. */
     void *user;                         /**< For it: pass->progress_user. */
 } nook_edge_scene_desc;

@@ -5,6 +5,7 @@
 extern const nook_extreme_group nook_extreme_space;      /**< Scale and place. */
 extern const nook_extreme_group nook_extreme_reach;      /**< r_max. */
 extern const nook_extreme_group nook_extreme_surfaces;   /**< Normals, depths and image sizes of any kind. */
+extern const nook_extreme_group nook_extreme_buffers;    /**< Formats of the G-buffer. */
 extern const nook_extreme_group nook_extreme_transforms; /**< Matrices of occluders. */
 extern const nook_extreme_group nook_extreme_triangles;  /**< What is baked. */
 extern const nook_extreme_group nook_extreme_memory;     /**< What baking takes. */
