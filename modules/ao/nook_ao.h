@@ -52,10 +52,11 @@ typedef struct nook_ao_desc {
 
 /** One instance of a volume in this frame. */
 typedef struct nook_ao_occluder {
-    nook_ao_volume volume;      /**< What the volume techniques march; id 0: they do not see this occluder. */
-    nook_ao_mesh mesh;          /**< What the reference traces; id 0: it does not see this occluder. */
-    double world_from_mesh[16]; /**< Any affine matrix; a singular one leaves the occluder out, and so does one beyond what
-                                     floats hold: voxels smaller than 1e-18 m or larger than 1e18 m. */
+    nook_ao_volume volume; /**< What the volume techniques march; id 0: they do not see this occluder. */
+    nook_ao_mesh mesh;     /**< What the reference traces; id 0: it does not see this occluder. */
+    /** Any affine matrix. A singular one leaves the occluder out, and so does one that floats cannot hold: with voxels smaller than
+        1e-18 m or larger than 1e18 m the volume techniques do not see it. */
+    double world_from_mesh[16];
 } nook_ao_occluder;
 
 typedef struct nook_ao_frame {
