@@ -42,6 +42,11 @@ __attribute__((format(printf, 2, 0))) static void put_number(FILE *out, const ch
     fputs(" |", out);
 }
 
+static void put_ms(FILE *out, double value)
+{
+    put_number(out, value < 100.0 ? "%.3g" : "%.0f", value);
+}
+
 /* ---- head ---- */
 
 /* The texts of one kind, each once, with commas. */
@@ -98,7 +103,7 @@ static void put_head(FILE *out, const nook_results *results, const char *command
           "own\ngeometry (screen), inside and outside of silhouettes and away from them, noise, flicker and "
           "instability are "
           "roots of mean\nsquares; p99, max, memory and bake time are those of the worst camera. What each is: "
-          "[measuring.md](measuring.md#the-report).\n",
+          "[measuring.md](measuring.md#numbers).\n",
           out);
 }
 
@@ -119,13 +124,15 @@ static void put_heading(FILE *out, const nook_summary_view *view)
                 100.0 * view->largest_noise / view->smallest_rmse, view->smallest_rmse);
 }
 
-static void put_initial_row(FILE *out, const nook_summary_row *row)
+static void put_initial_row(FILE *out, const nook_summary_view *view, const nook_summary_row *row)
 {
     const nook_sample *sample = &row->sample;
     fputs("| ", out);
     put_setting(out, row->row->setting);
+    if (row->cameras < view->cameras)
+        fprintf(out, " (%u of %u cameras)", row->cameras, view->cameras);
     fputs(" |", out);
-    put_number(out, "%.3g", sample->ms_median);
+    put_ms(out, sample->ms_median);
     put_number(out, "%.0f", sample->fetches);
     put_number(out, "%.4f", sample->truth.rmse);
     put_number(out, "%+.4f", sample->truth.bias);
@@ -156,7 +163,7 @@ static void put_initial_table(FILE *out, const nook_summary_view *view)
     for (size_t i = 0; i < view->row_count; i++) {
         const nook_summary_row *row = &view->rows[i];
         if (row->row->initial || strcmp(row->row->technique, NOOK_SUMMARY_REFERENCE) == 0)
-            put_initial_row(out, row);
+            put_initial_row(out, view, row);
     }
 }
 
@@ -171,7 +178,7 @@ static void put_front_row(FILE *out, const nook_summary_row *row)
 {
     const nook_sample *sample = &row->sample;
     fputs("|", out);
-    put_number(out, "%.3g", sample->ms_median);
+    put_ms(out, sample->ms_median);
     put_number(out, "%.0f", sample->fetches);
     put_number(out, "%.4f", sample->truth.rmse);
     put_number(out, "%+.4f", sample->truth.bias);
@@ -194,9 +201,9 @@ static nook_result put_front_table(FILE *out, const nook_summary_view *view)
     }
     qsort(front, count, sizeof(const nook_summary_row *), compare_ms);
     fprintf(out,
-            "\nThe front: of %zu settings, the %zu that no other beats in both time and RMSE:\n\n"
+            "\nThe front: %zu of %zu settings; no other beats them in both time and RMSE:\n\n"
             "| ms | fetches | RMSE | bias | p99 | SSIM | setting |\n|---:|---:|---:|---:|---:|---:|---|\n",
-            view->row_count, count);
+            count, view->compared);
     for (size_t i = 0; i < count; i++)
         put_front_row(out, front[i]);
     free(front);

@@ -26,9 +26,16 @@ static int compare_views(const nook_result_row *a, const nook_result_row *b)
     return order ? order : strcmp(a->falloff, b->falloff);
 }
 
+static bool is_reference(const nook_result_row *row)
+{
+    return strcmp(row->technique, NOOK_SUMMARY_REFERENCE) == 0;
+}
+
 static int compare_settings(const nook_result_row *a, const nook_result_row *b)
 {
-    int order = strcmp(a->technique, b->technique);
+    int order = (int)is_reference(a) - (int)is_reference(b);
+    if (order == 0)
+        order = strcmp(a->technique, b->technique);
     if (order == 0)
         order = (int)b->initial - (int)a->initial;
     return order ? order : strcmp(a->setting, b->setting);
@@ -81,7 +88,7 @@ nook_result nook_front_mark(const double *costs, const double *errors, size_t co
 
 static bool can_be_on_front(const nook_summary_view *view, const nook_summary_row *row)
 {
-    return row->cameras == view->cameras && strcmp(row->row->technique, NOOK_SUMMARY_REFERENCE) != 0;
+    return row->cameras == view->cameras && !is_reference(row->row);
 }
 
 static nook_result mark_front(nook_summary_view *view)
@@ -93,7 +100,9 @@ static nook_result mark_front(nook_summary_view *view)
         result = nook_fail(NOOK_E_MEMORY, "no memory for the front of %zu settings", view->row_count);
     for (size_t i = 0; i < view->row_count && result == NOOK_OK; i++) {
         const nook_summary_row *row = &view->rows[i];
-        numbers[i] = can_be_on_front(view, row) ? row->sample.ms_median : NAN;
+        bool counts = can_be_on_front(view, row);
+        view->compared += counts;
+        numbers[i] = counts ? row->sample.ms_median : NAN;
         numbers[view->row_count + i] = row->sample.truth.rmse;
     }
     if (result == NOOK_OK)
@@ -128,7 +137,7 @@ static void extend_view(nook_summary_view *view, const nook_summary_row *row, co
     view->cameras = row->cameras > view->cameras ? row->cameras : view->cameras;
     for (uint32_t i = 0; i < row->cameras; i++) {
         view->largest_noise = fmax(view->largest_noise, rows[i]->sample.reference_noise);
-        if (strcmp(row->row->technique, NOOK_SUMMARY_REFERENCE) != 0)
+        if (!is_reference(row->row))
             view->smallest_rmse = fmin(view->smallest_rmse, rows[i]->sample.truth.rmse);
     }
 }

@@ -17,8 +17,9 @@ typedef struct nook_summary_row {
 
 /** All settings of one view. */
 typedef struct nook_summary_view {
-    nook_summary_row *rows; /**< By technique, then setting. */
+    nook_summary_row *rows; /**< By technique, as it comes first, then setting; the reference last. */
     size_t row_count;
+    size_t compared;      /**< Of them, those that the front was found among. */
     uint32_t cameras;     /**< The most that any setting was measured with. */
     double largest_noise; /**< Of the truths: the largest over the cameras. */
     double smallest_rmse; /**< Of the settings, at one camera; NaN when there is none. */

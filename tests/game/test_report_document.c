@@ -100,7 +100,23 @@ static void test_tables_hold_the_numbers(void **state)
     assert_non_null(strstr(line, " | - | "));
     assert_non_null(strstr(line, "| 1.50 |"));
     assert_non_null(strstr(find_line(&file, "\n| 12.3 | 101 | 0.0124 "), "`volume` as it comes |")); /* the front */
-    assert_non_null(find_line(&file, "| `reference sees=screen` | 5.43e+04"));
+    assert_non_null(find_line(&file, "| `reference sees=screen` | 54321 |"));
+    nook_file_free(&file);
+    nook_results_free(&results);
+}
+
+static void test_settings_that_miss_a_camera_say_so(void **state)
+{
+    (void)state;
+    const char *path = write_document("partial.md", before, "", after);
+    nook_results results = make_results(1, 2, 2);
+    const size_t row_count = results.row_count;
+    results.row_count = 8; /* of the second camera only the first setting */
+    nook_file file = write_tables(&results, path);
+    results.row_count = row_count;
+    assert_non_null(find_line(&file, "| `gtao` (1 of 2 cameras) |"));
+    assert_non_null(find_line(&file, "| `volume` |"));
+    assert_non_null(find_line(&file, "The front: 1 of 1 settings; "));
     nook_file_free(&file);
     nook_results_free(&results);
 }
@@ -193,6 +209,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_what_stands_outside_the_marks_stays),
         cmocka_unit_test(test_tables_hold_the_numbers),
+        cmocka_unit_test(test_settings_that_miss_a_camera_say_so),
         cmocka_unit_test(test_front_goes_from_fast_to_slow_and_from_wrong_to_right),
         cmocka_unit_test(test_names_cannot_break_the_tables),
         cmocka_unit_test(test_nothing_measured_is_said),
