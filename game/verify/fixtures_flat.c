@@ -82,13 +82,20 @@ static void make_wall_within_reach(double x, double extent, nook_verify_scene *s
 
 void nook_verify_make_wall(uint32_t point, double extent, nook_verify_scene *scene)
 {
-    static const double distances[] = { 0.3, 0.1, 0.6 }, infinite[] = { 1.0, 0.01, 0.1 }, finite[] = { 1.0, 0.25, 0.5 };
+    static const double infinite[] = { 1.0, 0.01, 0.1 }, finite[] = { 1.0, 0.25, 0.5 };
+    static const struct {
+        nook_falloff falloff;
+        double k;
+    } points[] = { { NOOK_FALLOFF_HARD, 0.3 },     { NOOK_FALLOFF_LINEAR, 0.1 },    { NOOK_FALLOFF_QUADRATIC, 0.3 },
+                   { NOOK_FALLOFF_HARD, 0.6 },     { NOOK_FALLOFF_HARD, 0.1 },      { NOOK_FALLOFF_LINEAR, 0.3 },
+                   { NOOK_FALLOFF_LINEAR, 0.6 },   { NOOK_FALLOFF_QUADRATIC, 0.1 }, { NOOK_FALLOFF_QUADRATIC, 0.6 },
+                   { NOOK_FALLOFF_WENDLAND, 0.1 }, { NOOK_FALLOFF_WENDLAND, 0.3 },  { NOOK_FALLOFF_WENDLAND, 0.6 } };
     if (point >= 12) {
         make_wall_within_reach(is_infinite(extent) ? infinite[point - 12] : finite[point - 12], extent, scene);
         return;
     }
-    double k = distances[point % 3];
-    scene->falloff = (nook_falloff)(point / 3);
+    double k = points[point].k;
+    scene->falloff = points[point].falloff;
     snprintf(scene->point, sizeof scene->point, "k %g, %s", k, nook_verify_falloff_name(scene->falloff));
     nook_fixture_add_quad(nook_verify_scene_object(scene), (double[]){ k, -1.05, 0 }, (double[]){ 0, 2.1, 0 },
                           (double[]){ 0, 0, 1.05 });
@@ -96,7 +103,8 @@ void nook_verify_make_wall(uint32_t point, double extent, nook_verify_scene *sce
                             nook_form_wall(NOOK_FORM_SOLID_ANGLE, scene->falloff, k));
     add_ground_beyond(scene, k, 1.05, 1.0);
     scene->height_field = true;
-    nook_verify_scene_camera(scene, "above", (double[]){ 0, 0, 3 }, 1.1);
+    if (k >= 0.3) /* else all of it falls into one pixel */
+        nook_verify_scene_camera(scene, "above", (double[]){ 0, 0, 3 }, 1.1);
     nook_verify_scene_camera(scene, "oblique", (double[]){ -2, 0, 3 }, 0.8);
 }
 

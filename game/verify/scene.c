@@ -5,8 +5,8 @@
 #include <math.h>
 
 static const nook_verify_fixture fixtures[] = {
-#define NOOK_VERIFY_FIXTURE(row, name, points, quick_points, what) \
-    { row, #name, what, points, quick_points, nook_verify_make_##name },
+#define NOOK_VERIFY_FIXTURE(row, name, points, picture_points, quick_points, what) \
+    { row, #name, what, points, picture_points, quick_points, nook_verify_make_##name },
 #include "game/verify/fixtures.def"
 #undef NOOK_VERIFY_FIXTURE
 };
@@ -76,7 +76,7 @@ void nook_verify_scene_reach_all(nook_verify_scene *scene)
             farthest = fmax(farthest, nook_vector_length((double[]){ p[0], p[1], p[2] }));
         }
     }
-    scene->r_max = 1.02 * farthest;
+    scene->r_max = 1.2 * farthest;
 }
 
 void nook_verify_scene_camera(nook_verify_scene *scene, const char *name, const double eye[3], double angle)

@@ -1,0 +1,83 @@
+#include "game/verify/claims.h"
+#include <string.h>
+
+static const nook_verify_claim claims[] = {
+    { .technique = "reference",
+      .target = NOOK_VERIFY_EQUATION_1,
+      .tolerance = 0.005,
+      .settings = "reference rays=4096",
+      .says = "equation 1, by rays against the triangles" },
+    { .technique = "volume",
+      .target = NOOK_VERIFY_EQUATION_1,
+      .tolerance = 0.02,
+      .plane = 1.0 / 255,
+      .settings = "volume rays=1024 steps=1024 ao.filter=none",
+      .says = "equation 1, to what voxels can hold" },
+    { .technique = "hsao",
+      .target = NOOK_VERIFY_EQUATION_1,
+      .tolerance = 0.04,
+      .plane = 0.01,
+      .reads_picture = true,
+      .horizons = true,
+      .settings = "hsao directions=16 steps=48 rays=1 ray_steps=24 ao.filter=none",
+      .says = "equation 1, of what the depth buffer holds" },
+    { .technique = "gtao",
+      .target = NOOK_VERIFY_EQUATION_1,
+      .tolerance = 0.03,
+      .plane = 0.01,
+      .reads_picture = true,
+      .horizons = true,
+      .settings = "gtao slices=16 steps=48 ao.filter=none",
+      .says = "equation 1, of what the depth buffer holds" },
+    { .technique = "hbao",
+      .target = NOOK_VERIFY_SOLID_ANGLE,
+      .tolerance = 0.03,
+      .plane = 0.01,
+      .reads_picture = true,
+      .horizons = true,
+      .settings = "hbao directions=32 steps=48 ao.filter=none",
+      .says = "the solid angle below the horizon, without the cosine (erratum C18)" },
+    { .technique = "ssao",
+      .target = NOOK_VERIFY_HALF_BALL,
+      .tolerance = 0.03,
+      .plane = 0.01,
+      .reads_picture = true,
+      .settings = "ssao samples=512 ao.filter=none",
+      .says = "the part of the half ball of radius r_max that the depth buffer hides" },
+};
+
+static const char ASKEW_SETTINGS[] = "volume rays=1024 steps=1024 threshold=0.4 stepping=fixed ao.filter=none";
+static const char ASKEW[] = "an open sheet askew in its voxels needs a lower threshold and short steps";
+
+static const nook_verify_exception exceptions[] = {
+    { "volume", "dihedral", "", ASKEW_SETTINGS, 0.0, ASKEW },
+    { "volume", "pit", "", ASKEW_SETTINGS, 0.0, ASKEW },
+    { "volume", "sphere_inside", "", ASKEW_SETTINGS, 0.0, ASKEW },
+    { "hbao", "sphere_inside", "", NULL, 0.0, "facets as large as pixels hide the flattest rays, which weigh fully" },
+};
+
+const nook_verify_claim *nook_verify_claim_of(const char *technique)
+{
+    for (size_t i = 0; i < sizeof claims / sizeof *claims; i++) {
+        if (strcmp(claims[i].technique, technique) == 0)
+            return &claims[i];
+    }
+    return NULL;
+}
+
+const nook_verify_exception *nook_verify_exception_for(const char *technique, const char *fixture, const char *point)
+{
+    for (size_t i = 0; i < sizeof exceptions / sizeof *exceptions; i++) {
+        const nook_verify_exception *e = &exceptions[i];
+        if (strcmp(e->technique, technique) == 0 && strcmp(e->fixture, fixture) == 0 &&
+            strncmp(e->point, point, strlen(e->point)) == 0)
+            return e;
+    }
+    return NULL;
+}
+
+const char *nook_verify_target_name(nook_verify_target target)
+{
+    static const char *const names[] = { "Eq. 1", "own: solid angle", "own: half ball" };
+    return names[target];
+}

@@ -1,0 +1,136 @@
+#include "game/verify/verify_report.h"
+#include "game/verify/claims.h"
+#include <math.h>
+#include <string.h>
+
+void nook_verify_print_head(FILE *stream)
+{
+    fprintf(stream, "%-42s %-10s %-9s %-17s %8s %8s %8s %6s  %s\n", "  fixture", "technique", "camera", "target",
+            "expected", "measured", "error", "within", "verdict");
+}
+
+static void print_number(FILE *stream, const char *format, double value)
+{
+    char text[32];
+    snprintf(text, sizeof text, format, value);
+    fprintf(stream, " %8s", isnan(value) ? "-" : text);
+}
+
+/** What a reader must know beside the verdict. */
+static void print_remark(FILE *stream, const nook_verify_row *row)
+{
+    const nook_verify_check *check = &row->check;
+    if (row->verdict == NOOK_VERDICT_UNSEEN)
+        fprintf(stream, ": the depth buffer lacks %.4f of A", check->missing);
+    else if (row->verdict == NOOK_VERDICT_NOT_CLAIMED)
+        fprintf(stream, ": %s", row->reason);
+    else if (strncmp(row->target, "own", 3) == 0 && !isnan(row->equation_1))
+        fprintf(stream, ", %+.4f to Eq. 1", check->measured - row->equation_1);
+    if (row->outside)
+        fprintf(stream, ", %llu visibilities outside [0, 1]", (unsigned long long)row->outside);
+}
+
+void nook_verify_print_row(FILE *stream, const nook_verify_row *row, const nook_verify_row *before)
+{
+    const nook_verify_check *check = &row->check;
+    if (!before || strcmp(before->what, row->what) != 0)
+        fprintf(stream, "%d %s: %s\n", row->number, row->fixture, row->what);
+    fprintf(stream, "  %-40s %-10s %-9s %-17s", row->point, row->technique, row->camera ? row->camera : "-",
+            row->target);
+    print_number(stream, "%.4f", check->expected);
+    print_number(stream, "%.4f", check->measured);
+    print_number(stream, "%+.4f", check->measured - check->expected);
+    if (check->claimed)
+        fprintf(stream, " %6.3g", check->tolerance);
+    else
+        fprintf(stream, " %6s", "-");
+    fprintf(stream, "  %s", nook_verdict_name(row->verdict));
+    print_remark(stream, row);
+    fputc('\n', stream);
+}
+
+/** Whether an earlier row of the same technique has the same settings. */
+static bool said_before(const nook_verify_rows *rows, size_t index)
+{
+    const nook_verify_row *row = &rows->rows[index];
+    for (size_t i = 0; i < index; i++) {
+        if (strcmp(rows->rows[i].technique, row->technique) == 0 && strcmp(rows->rows[i].settings, row->settings) == 0)
+            return true;
+    }
+    return false;
+}
+
+void nook_verify_print_notes(FILE *stream, const nook_verify_rows *rows)
+{
+    fprintf(stream, "\nsettings\n");
+    for (size_t i = 0; i < rows->count; i++) {
+        const nook_verify_row *row = &rows->rows[i];
+        if (row->number > 17 || said_before(rows, i)) /* rows 18 to 20 name theirs in the table */
+            continue;
+        const nook_verify_claim *claim = nook_verify_claim_of(row->technique);
+        fprintf(stream, "  %-78s %s\n", row->settings,
+                row->reason && row->check.claimed ? row->reason
+                : claim                           ? claim->says
+                                                  : "claims nothing");
+    }
+}
+
+void nook_verify_print_summary(FILE *stream, const nook_verify_rows *rows, double seconds)
+{
+    nook_verify_summary sum = nook_verify_summarize(rows);
+    fprintf(stream, "\n%zu of %zu checks hold; %zu unseen, %zu not claimed; largest error %.4f",
+            sum.verdicts[NOOK_VERDICT_OK], sum.checks, sum.verdicts[NOOK_VERDICT_UNSEEN],
+            sum.verdicts[NOOK_VERDICT_NOT_CLAIMED], sum.largest_error);
+    if (sum.worst)
+        fprintf(stream, ", nearest to its bound: %s on %s (%s), %+.4f of %.3g", sum.worst->technique,
+                sum.worst->fixture, sum.worst->point, sum.worst->check.measured - sum.worst->check.expected,
+                sum.worst->check.tolerance);
+    fprintf(stream, "; %llu visibilities outside [0, 1]; %.0f s\n", (unsigned long long)sum.outside, seconds);
+}
+
+static void write_row(nook_json *json, const nook_verify_row *row)
+{
+    const nook_verify_check *check = &row->check;
+    nook_json_begin_object(json);
+    nook_json_member_integer(json, "row", row->number);
+    nook_json_member_string(json, "fixture", row->fixture);
+    nook_json_member_string(json, "what", row->what);
+    nook_json_member_string(json, "point", row->point);
+    nook_json_member_string(json, "technique", row->technique);
+    nook_json_member_string(json, "camera", row->camera);
+    nook_json_member_string(json, "target", row->target);
+    nook_json_member_number(json, "expected", check->expected);
+    nook_json_member_number(json, "measured", check->measured);
+    nook_json_member_number(json, "error", check->measured - check->expected);
+    nook_json_member_number(json, "tolerance", check->claimed ? check->tolerance : NAN);
+    nook_json_member_number(json, "missing", check->missing);
+    nook_json_member_number(json, "equation_1", row->equation_1);
+    nook_json_member_number(json, "deviation", row->deviation);
+    nook_json_member_integer(json, "outside", (int64_t)row->outside);
+    nook_json_member_bool(json, "claimed", check->claimed);
+    nook_json_member_string(json, "verdict", nook_verdict_name(row->verdict));
+    nook_json_member_string(json, "settings", row->settings);
+    nook_json_member_string(json, "reason", row->reason);
+    nook_json_end_object(json);
+}
+
+void nook_verify_write_json(nook_json *json, const nook_verify_rows *rows, const char *renderer, double seconds)
+{
+    nook_verify_summary sum = nook_verify_summarize(rows);
+    nook_json_begin_object(json);
+    nook_json_member_string(json, "renderer", renderer);
+    nook_json_key(json, "rows");
+    nook_json_begin_array(json);
+    for (size_t i = 0; i < rows->count; i++)
+        write_row(json, &rows->rows[i]);
+    nook_json_end_array(json);
+    nook_json_member_integer(json, "checks", (int64_t)sum.checks);
+    nook_json_member_integer(json, "ok", (int64_t)sum.verdicts[NOOK_VERDICT_OK]);
+    nook_json_member_integer(json, "off", (int64_t)sum.verdicts[NOOK_VERDICT_OFF]);
+    nook_json_member_integer(json, "unseen", (int64_t)sum.verdicts[NOOK_VERDICT_UNSEEN]);
+    nook_json_member_integer(json, "not_claimed", (int64_t)sum.verdicts[NOOK_VERDICT_NOT_CLAIMED]);
+    nook_json_member_number(json, "largest_error", sum.largest_error);
+    nook_json_member_integer(json, "outside", (int64_t)sum.outside);
+    nook_json_member_number(json, "seconds", seconds);
+    nook_json_end_object(json);
+}

@@ -1,0 +1,143 @@
+/* What verify makes of a measured number. */
+#include "game/techniques.h"
+#include "game/verify/claims.h"
+#include "game/verify/scene.h"
+#include "game/verify/verify_run.h"
+#include "tests/support/log_capture.h"
+#include <math.h>
+#include <string.h>
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <cmocka.h>
+
+static const nook_verify_check good = { .expected = 0.5, .measured = 0.51, .tolerance = 0.02, .claimed = true };
+
+static nook_verdict judge(double expected, double measured, double missing, bool claimed)
+{
+    nook_verify_check check = good;
+    check.expected = expected, check.measured = measured, check.missing = missing, check.claimed = claimed;
+    return nook_verify_judge(&check);
+}
+
+static void test_verdict_is_off_when_the_expectation_is_wrong(void **state)
+{
+    (void)state;
+    assert_int_equal(nook_verify_judge(&good), NOOK_VERDICT_OK);
+    assert_int_equal(judge(0.5, 0.5199, 0.0, true), NOOK_VERDICT_OK);
+    assert_int_equal(judge(0.7071, 0.51, 0.0, true),
+                     NOOK_VERDICT_OFF); /* a pit by hbao's formula, measured by another's */
+    assert_int_equal(judge(0.5, 0.47, 0.0, true), NOOK_VERDICT_OFF);
+}
+
+static void test_verdict_of_what_is_no_number_is_never_ok(void **state)
+{
+    (void)state;
+    assert_int_equal(judge(0.5, NAN, 0.0, true), NOOK_VERDICT_OFF);
+    assert_int_equal(judge(NAN, 0.5, 0.0, true), NOOK_VERDICT_OFF);
+    assert_int_equal(judge(0.5, 0.5, NAN, true), NOOK_VERDICT_UNSEEN);
+}
+
+static void test_verdict_says_unseen_before_not_claimed_before_ok(void **state)
+{
+    (void)state;
+    assert_int_equal(judge(0.5, 0.5, 0.2, true), NOOK_VERDICT_UNSEEN);
+    assert_int_equal(judge(0.5, 0.5, 0.2, false), NOOK_VERDICT_UNSEEN);
+    assert_int_equal(judge(0.5, 0.5, 0.0, false), NOOK_VERDICT_NOT_CLAIMED);
+    assert_int_equal(judge(0.5, 0.5, 0.009, true), NOOK_VERDICT_OK);
+}
+
+static void test_summary_counts_verdicts_and_finds_the_row_nearest_to_its_bound(void **state)
+{
+    (void)state;
+    nook_verify_rows rows = { 0 };
+    nook_verify_row row = { .fixture = "first", .check = good };
+    assert_int_equal(nook_verify_rows_add(&rows, &row), NOOK_OK);
+    row.fixture = "second", row.check.measured = 0.485, row.check.tolerance = 0.1;
+    assert_int_equal(nook_verify_rows_add(&rows, &row), NOOK_OK);
+    row.check.missing = 0.5;
+    assert_int_equal(nook_verify_rows_add(&rows, &row), NOOK_OK);
+    nook_verify_summary sum = nook_verify_summarize(&rows);
+    assert_int_equal(sum.checks, 2);
+    assert_int_equal(sum.verdicts[NOOK_VERDICT_OK], 2);
+    assert_int_equal(sum.verdicts[NOOK_VERDICT_UNSEEN], 1);
+    assert_string_equal(sum.worst->fixture, "first");
+    assert_true(fabs(sum.largest_error - 0.015) < 1e-12);
+    row.check = good, row.outside = 1; /* one visibility that is none makes any number worthless */
+    assert_int_equal(nook_verify_rows_add(&rows, &row), NOOK_OK);
+    sum = nook_verify_summarize(&rows);
+    assert_int_equal(sum.verdicts[NOOK_VERDICT_OFF], 1);
+    assert_int_equal(sum.outside, 1);
+    nook_verify_rows_free(&rows);
+}
+
+static void test_every_technique_has_a_claim_whose_settings_can_be_read(void **state)
+{
+    (void)state;
+    size_t count;
+    const nook_ao_technique *const *techniques = nook_techniques(&count);
+    for (size_t i = 0; i < count; i++) {
+        const nook_verify_claim *claim = nook_verify_claim_of(techniques[i]->name);
+        nook_setting setting;
+        assert_non_null(claim);
+        assert_int_equal(nook_setting_parse("claim", claim->settings, &setting), NOOK_OK);
+        assert_ptr_equal(setting.technique, techniques[i]);
+    }
+    assert_null(nook_verify_claim_of("nonsense"));
+}
+
+static void test_exceptions_name_fixtures_that_there_are(void **state)
+{
+    (void)state;
+    size_t fixture_count, technique_count, found = 0;
+    const nook_verify_fixture *fixtures = nook_verify_fixtures(&fixture_count);
+    const nook_ao_technique *const *techniques = nook_techniques(&technique_count);
+    for (size_t i = 0; i < fixture_count; i++) {
+        for (size_t k = 0; k < technique_count; k++) {
+            const nook_verify_exception *e = nook_verify_exception_for(techniques[k]->name, fixtures[i].name, "");
+            if (!e)
+                continue;
+            nook_setting setting;
+            found++;
+            assert_true(strlen(e->reason) > 10);
+            if (e->settings)
+                assert_int_equal(nook_setting_parse("exception", e->settings, &setting), NOOK_OK);
+        }
+    }
+    assert_true(found >= 4);
+    assert_null(nook_verify_exception_for("volume", "ceiling", ""));
+}
+
+static void test_choices_refuse_what_there_is_not(void **state)
+{
+    (void)state;
+    char storage[64];
+    nook_log_capture log;
+    nook_verify_desc desc = { 0 };
+    nook_log_capture_begin(&log);
+    assert_int_equal(nook_verify_choose_techniques("volume,nonsense", &desc), NOOK_E_NOT_FOUND);
+    assert_int_equal(nook_verify_choose_fixtures("pit,21", &desc, storage, sizeof storage), NOOK_E_NOT_FOUND);
+    assert_non_null(strstr(log.text, "upright_rectangle"));
+    nook_log_capture_end();
+    desc = (nook_verify_desc){ 0 };
+    assert_int_equal(nook_verify_choose_techniques("filter,hsao,hsao", &desc), NOOK_OK);
+    assert_true(desc.filter && desc.technique_count == 1);
+    assert_int_equal(nook_verify_choose_fixtures("pit,4", &desc, storage, sizeof storage), NOOK_OK);
+    assert_true(nook_verify_wants(&desc, 10, "pit") && nook_verify_wants(&desc, 4, "ceiling"));
+    assert_false(nook_verify_wants(&desc, 5, "wall"));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_verdict_is_off_when_the_expectation_is_wrong),
+        cmocka_unit_test(test_verdict_of_what_is_no_number_is_never_ok),
+        cmocka_unit_test(test_verdict_says_unseen_before_not_claimed_before_ok),
+        cmocka_unit_test(test_summary_counts_verdicts_and_finds_the_row_nearest_to_its_bound),
+        cmocka_unit_test(test_every_technique_has_a_claim_whose_settings_can_be_read),
+        cmocka_unit_test(test_exceptions_name_fixtures_that_there_are),
+        cmocka_unit_test(test_choices_refuse_what_there_is_not),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
