@@ -4,9 +4,9 @@
 #include "engine/core/surface.h"
 #include "engine/core/vector.h"
 #include "modules/ao/falloff.h"
-#include "modules/ao/sampling.h"
 #include "modules/ao_reference/depth_mesh_internal.h"
 #include "modules/ao_reference/pixel_internal.h"
+#include "modules/ao_reference/ray_points_internal.h"
 #include "modules/ao_reference/tracer_internal.h"
 #include <cglm/cglm.h>
 #include <math.h>
@@ -27,9 +27,9 @@ typedef struct reference_state {
 typedef struct trace_work {
     const nook_ao_pass *pass;
     const tracer *tracer;
-    const float *depth;     /**< width * height. */
-    const uint16_t *normal; /**< RG pairs. */
-    const float *points;    /**< Sobol points, xy * rays. */
+    const float *depth;      /**< width * height. */
+    const uint16_t *normal;  /**< RG pairs. */
+    const ray_point *points; /**< As many as rays, by their place. */
     uint32_t rays, first_row;
     float *visibility;
 } trace_work;
@@ -62,27 +62,50 @@ static void ray_origin(const nook_ao_pass *pass, uint32_t x, uint32_t y, double 
         out[axis] = (float)(p[axis] + n[axis] * lift);
 }
 
-static double trace_pixel(const trace_work *work, uint32_t x, uint32_t y, double depth, const uint16_t code[2])
+/** What a pixel's rays have in common. */
+typedef struct pixel_rays {
+    float origin[3];
+    mat3 view_from_local;
+    ray_shift shift;
+} pixel_rays;
+
+static pixel_rays rays_of_pixel(const nook_ao_pass *pass, uint32_t x, uint32_t y, double depth, const uint16_t code[2])
+{
+    pixel_rays rays = { .shift = ray_shift_of_pixel(x, y, pass->seed) };
+    double normal[3];
+    reference_decode_normal(code, normal);
+    tangent_frame((vec3){ (float)normal[0], (float)normal[1], (float)normal[2] }, rays.view_from_local);
+    ray_origin(pass, x, y, depth, normal, rays.origin);
+    return rays;
+}
+
+/** Sum of rho over a packet. @param count  at most TRACER_PACKET */
+static double trace_packet(const trace_work *work, pixel_rays *rays, const ray_point *points, uint32_t count)
 {
     const nook_ao_pass *pass = work->pass;
-    vec3 origin;
-    mat3 view_from_local;
-    double normal[3], sum = 0.0;
-    reference_decode_normal(code, normal);
-    tangent_frame((vec3){ (float)normal[0], (float)normal[1], (float)normal[2] }, view_from_local);
-    ray_origin(pass, x, y, depth, normal, origin);
-    uint32_t h = nook_mix_bits(x + nook_mix_bits(y + nook_mix_bits(pass->seed)));
-    float shift_x = (float)(h >> 8) / 16777216.0f, shift_y = (float)(nook_mix_bits(h) >> 8) / 16777216.0f;
-    int any = pass->falloff == NOOK_FALLOFF_HARD;
-    for (uint32_t i = 0; i < work->rays; i++) {
-        float point[2] = { work->points[2 * i] + shift_x, work->points[2 * i + 1] + shift_y };
+    float directions[3][TRACER_PACKET] = { { 0.0f } }, distances[TRACER_PACKET];
+    double sum = 0.0;
+    for (uint32_t i = 0; i < count; i++) {
         vec3 local, direction;
-        point[0] -= point[0] >= 1.0f ? 1.0f : 0.0f;
-        point[1] -= point[1] >= 1.0f ? 1.0f : 0.0f;
-        nook_cosine_direction(point, local);
-        glm_mat3_mulv(view_from_local, local, direction);
-        float distance = tracer_distance(work->tracer, origin, direction, (float)pass->r_max, any);
-        sum += nook_falloff_evaluate((nook_falloff)pass->falloff, distance, pass->r_max, pass->falloff_tau);
+        ray_point_direction(&points[i], &rays->shift, local);
+        glm_mat3_mulv(rays->view_from_local, local, direction);
+        for (int axis = 0; axis < 3; axis++)
+            directions[axis][i] = direction[axis];
+    }
+    tracer_distances(work->tracer, rays->origin, (const float(*)[TRACER_PACKET])directions, count, (float)pass->r_max,
+                     pass->falloff == NOOK_FALLOFF_HARD, distances);
+    for (uint32_t i = 0; i < count; i++)
+        sum += nook_falloff_evaluate((nook_falloff)pass->falloff, distances[i], pass->r_max, pass->falloff_tau);
+    return sum;
+}
+
+static double trace_pixel(const trace_work *work, uint32_t x, uint32_t y, double depth, const uint16_t code[2])
+{
+    pixel_rays rays = rays_of_pixel(work->pass, x, y, depth, code);
+    double sum = 0.0;
+    for (uint32_t first = 0; first < work->rays; first += TRACER_PACKET) {
+        uint32_t left = work->rays - first;
+        sum += trace_packet(work, &rays, work->points + first, left < TRACER_PACKET ? left : TRACER_PACKET);
     }
     return 1.0 - sum / work->rays;
 }
@@ -125,19 +148,19 @@ static nook_result show_screen(tracer *t, const nook_ao_pass *pass, const float 
     return result;
 }
 
-/** Everything the trace needs in one block: depth, visibility, points, normals. */
-static nook_result trace_with_memory(const nook_ao_pass *pass, const reference_params *params, tracer *t, float *memory)
+/** Everything the trace needs in one block: points, depth, visibility, normals. */
+static nook_result trace_with_memory(const nook_ao_pass *pass, const reference_params *params, tracer *t, void *memory)
 {
     size_t pixels = (size_t)pass->width * pass->height;
-    float *depth = memory, *visibility = depth + pixels, *points = visibility + pixels;
-    uint16_t *normal = (uint16_t *)(void *)(points + 2 * (size_t)params->rays);
+    ray_point *points = memory;
+    float *depth = (float *)(void *)(points + params->rays), *visibility = depth + pixels;
+    uint16_t *normal = (uint16_t *)(void *)(visibility + pixels);
     nook_texture_read(pass->gpu, pass->depth, GL_RED, GL_FLOAT, depth, pixels * sizeof *depth);
     nook_texture_read(pass->gpu, pass->normal, GL_RG, GL_UNSIGNED_SHORT, normal, pixels * 2 * sizeof *normal);
     nook_result result = params->sees == SEES_SCREEN ? show_screen(t, pass, depth, normal) : tracer_update(t, pass);
     if (result != NOOK_OK)
         return result;
-    for (uint32_t i = 0; i < (uint32_t)params->rays; i++)
-        nook_sobol_point(i, 0, points + 2 * i);
+    ray_points_fill(points, (uint32_t)params->rays);
     trace_work work = { .pass = pass,
                         .tracer = t,
                         .depth = depth,
@@ -171,7 +194,7 @@ static nook_result record(void *state, const void *params, const nook_ao_pass *p
     reference_state *s = state;
     const reference_params *p = params;
     size_t pixels = (size_t)pass->width * pass->height;
-    float *memory = malloc((3 * pixels + 2 * (size_t)p->rays) * sizeof *memory);
+    void *memory = malloc((size_t)p->rays * sizeof(ray_point) + 3 * pixels * sizeof(float));
     if (!memory)
         return nook_fail(NOOK_E_MEMORY, "reference: no memory for %ux%u pixels", pass->width, pass->height);
     nook_result result = trace_with_memory(pass, p, s->tracer, memory);

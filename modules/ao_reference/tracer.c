@@ -178,21 +178,39 @@ nook_result tracer_update_triangles(tracer *t, const float *positions, uint32_t 
     return check_device(t);
 }
 
-float tracer_distance(const tracer *t, const float origin[3], const float direction[3], float limit, int any)
+static void fill_packet(const float origin[3], const float directions[3][TRACER_PACKET], float limit,
+                        struct RTCRayHit8 *packet)
+{
+    for (int i = 0; i < TRACER_PACKET; i++) {
+        packet->ray.org_x[i] = origin[0], packet->ray.org_y[i] = origin[1], packet->ray.org_z[i] = origin[2];
+        packet->ray.dir_x[i] = directions[0][i];
+        packet->ray.dir_y[i] = directions[1][i];
+        packet->ray.dir_z[i] = directions[2][i];
+        packet->ray.tfar[i] = limit;
+        packet->ray.mask[i] = ~0u;
+        packet->hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+        packet->hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+    }
+}
+
+void tracer_distances(const tracer *t, const float origin[3], const float directions[3][TRACER_PACKET], uint32_t count,
+                      float limit, int any, float *out)
 {
     struct RTCIntersectContext context;
+    struct RTCRayHit8 packet = { 0 };
+    _Alignas(32) int valid[TRACER_PACKET];
     rtcInitIntersectContext(&context);
-    struct RTCRayHit hit = { 0 };
-    hit.ray.org_x = origin[0], hit.ray.org_y = origin[1], hit.ray.org_z = origin[2];
-    hit.ray.dir_x = direction[0], hit.ray.dir_y = direction[1], hit.ray.dir_z = direction[2];
-    hit.ray.tfar = limit;
-    hit.ray.mask = ~0u;
-    hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    if (any) {
-        rtcOccluded1(t->world, &context, &hit.ray);
-        return hit.ray.tfar < 0.0f ? 0.0f : INFINITY;
+    fill_packet(origin, directions, limit, &packet);
+    for (uint32_t i = 0; i < TRACER_PACKET; i++)
+        valid[i] = i < count ? -1 : 0;
+    if (any)
+        rtcOccluded8(valid, t->world, &context, &packet.ray);
+    else
+        rtcIntersect8(valid, t->world, &context, &packet);
+    for (uint32_t i = 0; i < count; i++) {
+        if (any)
+            out[i] = packet.ray.tfar[i] < 0.0f ? 0.0f : INFINITY;
+        else
+            out[i] = packet.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID ? INFINITY : packet.ray.tfar[i];
     }
-    rtcIntersect1(t->world, &context, &hit);
-    return hit.hit.geomID == RTC_INVALID_GEOMETRY_ID ? INFINITY : hit.ray.tfar;
 }

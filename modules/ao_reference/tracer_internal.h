@@ -15,9 +15,16 @@ nook_result tracer_update(tracer *t, const nook_ao_pass *pass);
 nook_result tracer_update_triangles(tracer *t, const float *positions, uint32_t vertex_count, const uint32_t *indices,
                                     uint32_t index_count);
 
+/** As many rays as one traversal takes: packets of eight are native to AVX, and split up where there is none. */
+enum { TRACER_PACKET = 8 };
+
 /**
- * Distance of the first triangle along a unit ray, view space. Thread-safe between updates.
- * @param any  1: any triangle will do; the distance is then only a lower end of the truth (0)
- * @return infinity on a miss within (0, limit)
+ * Distances of the first triangle along unit rays from one point, view space; the closer the rays lie together, the faster.
+ * Thread-safe between updates.
+ * @param directions  x of all rays, y of all, z of all
+ * @param count       of rays, at most TRACER_PACKET
+ * @param any         1: any triangle will do; the distance is then only a lower end of the truth (0)
+ * @param out         count of them: infinity on a miss within (0, limit)
  */
-float tracer_distance(const tracer *t, const float origin[3], const float direction[3], float limit, int any);
+void tracer_distances(const tracer *t, const float origin[3], const float directions[3][TRACER_PACKET], uint32_t count,
+                      float limit, int any, float *out);
