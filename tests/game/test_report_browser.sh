@@ -155,7 +155,7 @@ test_choices_hold_for_all_that_is_shown() {
     equals "$(count '#table th[data-key=scene], #table th[data-key=camera]')" 0 # they say nothing here
     choose error ssim
     assert_holds "$(browser_run "return document.querySelector('#chart_ms').textContent")" '1 - SSIM'
-    equals "$(count '#extremes tbody tr') $(count '#limits tbody tr')" '3 2'
+    equals "$(count '#extremes tbody tr') $(count '#screen_errors tbody tr')" '3 2'
     choose right_picture truth
     choose camera 'camera 1'
     browser_click '#extremes tbody tr:first-child button' # goes to where that was measured: further cameras are worse
@@ -206,9 +206,10 @@ test_report_of_a_real_measurement_loads_and_shows_it() {
     with_report real
     browser_run "$wait_for_pictures" >/dev/null
     browser_run 'await settled();' >/dev/null
-    equals "$(count '#table tbody tr') $(count '#chart_ms .sign') $(count '#chart_ms .limit') $(count '#maps canvas') $(count '#limits tbody tr')" '5 4 1 2 1'
-    equals "$(browser_run "return [...document.querySelectorAll('#left_picture option')].map(option => option.value).join()")" \
-        'truth,screen,lit,geometry,setting volume,setting volume resolution=32,setting ssao,setting ssao samples=4,setting reference sees=screen'
+    equals "$(count '#table tbody tr') $(count '#chart_ms .sign') $(count '#chart_ms .screen_line') $(count '#maps canvas') $(count '#screen_errors tbody tr')" '5 4 1 2 1'
+    browser_run "return [...document.querySelectorAll('#left_picture option')].map(option => option.value).join()" >"$tmp/sources"
+    assert_holds "$(cat "$tmp/sources")" 'truth,screen,lit,geometry,setting volume,' # kept always; others when they are on a front
+    assert_holds "$(cat "$tmp/sources")" ',setting ssao,'
     browser_run "return document.querySelector('#pinned').textContent" >"$tmp/pinned"
     ! grep -q 'NaN\|undefined' "$tmp/pinned"
     equals "$(browser_complaints)" ''

@@ -95,12 +95,12 @@ function draw_front(chart, front) {
   chart.svg.append(make_svg(chart.svg, "path", { class: "front", d: d + `H${chart.box.right}` }));
 }
 
-function draw_limit(chart, limit) {
-  if (!Number.isFinite(limit) || limit <= 0) return;
-  const place = chart.y.place(limit);
+function draw_screen_line(chart, screen_error) {
+  if (!Number.isFinite(screen_error) || screen_error <= 0) return;
+  const place = chart.y.place(screen_error);
   if (place < chart.box.top) return;
-  chart.svg.append(make_svg(chart.svg, "line", { class: "limit", x1: chart.box.left, x2: chart.box.right, y1: place, y2: place }),
-    make_svg(chart.svg, "text", { class: "limit_label", x: chart.box.right, y: place - 4, "text-anchor": "end" }, "limit of the depth buffer"));
+  chart.svg.append(make_svg(chart.svg, "line", { class: "screen_line", x1: chart.box.left, x2: chart.box.right, y1: place, y2: place }),
+    make_svg(chart.svg, "text", { class: "screen_label", x: chart.box.right, y: place - 4, "text-anchor": "end" }, "rays that see only the depth buffer"));
 }
 
 function draw_points(chart, pinned) {
@@ -116,7 +116,7 @@ function draw_points(chart, pinned) {
   chart.svg.append(bars, points);
 }
 
-// options: rows, cost_key, cost_label, error (a column), pinned (settings), limit (of a perfect screen-space technique, or NaN)
+// options: rows, cost_key, cost_label, error (a column), pinned (settings), screen_error (of exact rays that see only the depth buffer, or NaN)
 function draw_chart(svg, options) {
   const width = Math.max(svg.clientWidth, 240), height = Math.max(svg.clientHeight, 240);
   const box = { left: 56, right: width - 14, top: 26, bottom: height - 42 };
@@ -126,7 +126,7 @@ function draw_chart(svg, options) {
   const costs = options.cost_key === "ms" ? shown.flatMap(row => [row.ms, row.ms_min, row.ms_max]) : shown.map(cost_of);
   const chart = {
     svg, box, error_of, cost_of, cost_key: options.cost_key, cost_label: options.cost_label, error_label: error_label(options.error),
-    x: make_scale(costs, box.left, box.right), y: make_scale([...shown.map(error_of), options.limit], box.bottom, box.top),
+    x: make_scale(costs, box.left, box.right), y: make_scale([...shown.map(error_of), options.screen_error], box.bottom, box.top),
   };
   chart.points = shown.map(row => ({ row, x: chart.x.place(cost_of(row)), y: chart.y.place(error_of(row)) })).sort((a, b) => a.x - b.x || a.y - b.y);
   svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
@@ -136,7 +136,7 @@ function draw_chart(svg, options) {
     return chart;
   }
   draw_axes(chart);
-  draw_limit(chart, options.limit);
+  draw_screen_line(chart, options.screen_error);
   draw_front(chart, find_front(shown, cost_of, error_of));
   draw_points(chart, options.pinned);
   chart.pointer = make_svg(svg, "circle", { class: "pointer", r: 13, visibility: "hidden" });

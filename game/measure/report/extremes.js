@@ -1,4 +1,4 @@
-// The worst of each technique, and how far a technique that sees only the depth buffer could come.
+// The worst of each technique, and how far exact rays come that see only the depth buffer.
 
 const extreme_keys = ["p99", "max", "bias", "noise", "flicker", "instability", "instability_relative"];
 
@@ -30,10 +30,10 @@ function draw_extremes(scene, go) {
     make_element("tbody", {}, ...body));
 }
 
-// ---- the screen-space limit ----
+// ---- exact rays through what the depth buffer shows ----
 
 // As measured when the reference itself was restricted to the depth buffer, else from the two truths' pictures (8 bits a pixel).
-async function measure_limit(site) {
+async function measure_screen(site) {
   const place = site.scene + "\n" + reach_key(site);
   const measured = rows.find(row => row.technique === reference_technique && row.setting.includes("sees=screen") && row.view === place && row.camera === site.camera);
   if (measured) return { rmse: measured.rmse, bias: measured.bias, mae: measured.mae, p99: measured.p99, max: measured.max };
@@ -42,33 +42,33 @@ async function measure_limit(site) {
   return measure_errors(screen, truth, mask);
 }
 
-const limits = new Map(); // by site: found once
+const screen_errors = new Map(); // by site: found once
 
-async function limit_of(site) {
-  if (!limits.has(site)) limits.set(site, await measure_limit(site));
-  return limits.get(site);
+async function screen_error_of(site) {
+  if (!screen_errors.has(site)) screen_errors.set(site, await measure_screen(site));
+  return screen_errors.get(site);
 }
 
-// Of several cameras together; NaN where the error has no such limit or there are no pictures.
-async function limit_of_sites(sites, column) {
+// Of several cameras together; NaN where the error has none or there are no pictures.
+async function screen_error_of_sites(sites, column) {
   const found = [];
-  for (const site of sites) found.push(await limit_of(site));
+  for (const site of sites) found.push(await screen_error_of(site));
   const number = report.columns.find(candidate => candidate.key === column.key);
-  const value = number ? over_cameras(number.over, found.map(limit => (limit && column.key in limit ? limit[column.key] : NaN))) : NaN;
+  const value = number ? over_cameras(number.over, found.map(screen_error => (screen_error && column.key in screen_error ? screen_error[column.key] : NaN))) : NaN;
   return column.of ? column.of(value) : value;
 }
 
-async function draw_limits(scene, is_current) {
+async function draw_screen_errors(scene, is_current) {
   const sites = report.sites.filter(site => site.scene === scene), keys = ["rmse", "bias", "mae", "p99", "max"];
   const lines = [];
   for (const site of sites) {
-    const limit = await limit_of(site);
+    const screen_error = await screen_error_of(site);
     if (!is_current()) return;
     lines.push(make_element("tr", {}, make_element("th", { scope: "row" }, site.camera), make_element("td", { class: "text" }, describe_site(site)),
-      ...keys.map(key => make_element("td", {}, limit ? column_of.get(key).format(limit[key]) : "-")),
+      ...keys.map(key => make_element("td", {}, screen_error ? column_of.get(key).format(screen_error[key]) : "-")),
       make_element("td", {}, three_digits(site.reference_noise ?? NaN)), make_element("td", {}, String(site.reference_rays))));
   }
-  by_id("limits").replaceChildren(make_element("thead", {}, make_element("tr", {}, make_element("th", { scope: "col", class: "text" }, "camera"), make_element("th", { scope: "col", class: "text" }, "reach"),
+  by_id("screen_errors").replaceChildren(make_element("thead", {}, make_element("tr", {}, make_element("th", { scope: "col", class: "text" }, "camera"), make_element("th", { scope: "col", class: "text" }, "reach"),
     ...keys.map(key => make_element("th", { scope: "col", title: column_of.get(key).about }, column_of.get(key).label)),
     make_element("th", { scope: "col", title: column_of.get("reference_noise").about }, "truth's noise"), make_element("th", { scope: "col", title: column_of.get("reference_rays").about }, "rays"))),
     make_element("tbody", {}, ...lines));

@@ -79,7 +79,7 @@ function sites_of_choice() {
 
 async function draw_charts() {
   const error = column_of.get(choice.error), turn = choice.chart_turn = (choice.chart_turn || 0) + 1;
-  const options = { rows: choice.rows.filter(row => row.technique !== reference_technique && !choice.hidden.has(row.technique)), error, pinned: choice.pins, limit: NaN };
+  const options = { rows: choice.rows.filter(row => row.technique !== reference_technique && !choice.hidden.has(row.technique)), error, pinned: choice.pins, screen_error: NaN };
   const draw = () => {
     charts = {
       chart_ms: draw_chart(by_id("chart_ms"), { ...options, cost_key: "ms", cost_label: "ms" }),
@@ -89,8 +89,8 @@ async function draw_charts() {
   by_id("chart_ms_caption").textContent = `${error_label(error)} against time`;
   by_id("chart_fetches_caption").textContent = `${error_label(error)} against texture fetches`;
   draw();
-  options.limit = await limit_of_sites(sites_of_choice(), error);
-  if (turn === choice.chart_turn && Number.isFinite(options.limit)) draw();
+  options.screen_error = await screen_error_of_sites(sites_of_choice(), error);
+  if (turn === choice.chart_turn && Number.isFinite(options.screen_error)) draw();
 }
 
 function draw_chosen() {
@@ -118,10 +118,14 @@ function update() {
   draw_table(choice, go);
   const scene = choice.scene;
   draw_extremes(scene, go);
-  draw_limits(scene, () => scene === choice.scene);
+  draw_screen_errors(scene, () => scene === choice.scene);
 }
 
 // ---- head and foot ----
+
+function count_words([count, word]) {
+  return `${count} ${word}${count === 1 ? "" : "s"}`;
+}
 
 function draw_facts() {
   const dates = rows.map(row => row.date).sort();
@@ -129,7 +133,8 @@ function draw_facts() {
   const facts = [["Machine", unique(rows.map(row => row.machine)).join("; ")],
     ["Measured", dates.length ? `${day(dates[0])} to ${day(dates[dates.length - 1])} UTC` : ""], ["Command", report.command],
     ["Build", unique(rows.map(row => row.build)).join(", ")],
-    ["Holds", `${rows.length} rows: ${unique(rows.map(row => row.setting)).length} settings of ${techniques.length} techniques, ${unique(rows.map(row => row.scene)).length} scenes, ${report.sites.length} sites; ${picture_elements.size} pictures`]];
+    ["Holds", [[rows.length, "row"], [unique(rows.map(row => row.setting)).length, "setting"], [techniques.length, "technique"],
+      [unique(rows.map(row => row.scene)).length, "scene"], [report.sites.length, "site"], [picture_elements.size, "picture"]].map(count_words).join(", ")]];
   for (const [name, value] of facts.filter(fact => fact[1])) by_id("facts").append(make_element("div", {}, make_element("dt", {}, name), make_element("dd", {}, value)));
 }
 
