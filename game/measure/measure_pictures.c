@@ -149,7 +149,7 @@ static bool is_truth(const nook_result_row *row)
 static nook_result gather(nook_results *results, const nook_result_row *like, site_rows *out)
 {
     size_t most = results->row_count + 1;
-    out->rows = calloc(most, sizeof *out->rows);
+    out->rows = calloc(most, sizeof(nook_result_row *));
     out->times = calloc(most, 3 * sizeof *out->times);
     out->on_front = calloc(most, 2 * sizeof *out->on_front);
     if (!out->rows || !out->times || !out->on_front)

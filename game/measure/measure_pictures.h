@@ -15,16 +15,18 @@ const char *nook_measure_picture_path(const nook_result_row *row, const char *na
 nook_result nook_measure_picture_write(const char *folder, const char *path, const float *values, uint32_t width,
                                        uint32_t height);
 
+/** Where a site's pictures are, relative to the folder. */
+typedef struct nook_measure_site_paths {
+    char truth[NOOK_MEASURE_PICTURE_MAX], screen[NOOK_MEASURE_PICTURE_MAX], geometry[NOOK_MEASURE_PICTURE_MAX],
+        lit[NOOK_MEASURE_PICTURE_MAX];
+} nook_measure_site_paths;
+
 /**
  * Writes what of a site no setting changes: truths, geometry, and the picture lit without occlusion. The stage's frame is the
  * site's afterwards.
  * @param row       names the site
  * @param out_site  its texts point into `paths`
  */
-typedef struct nook_measure_site_paths {
-    char truth[NOOK_MEASURE_PICTURE_MAX], screen[NOOK_MEASURE_PICTURE_MAX], geometry[NOOK_MEASURE_PICTURE_MAX],
-        lit[NOOK_MEASURE_PICTURE_MAX];
-} nook_measure_site_paths;
 nook_result nook_measure_site_write(nook_stage *stage, const nook_site *site, const nook_camera *camera,
                                     const nook_result_row *row, const char *folder, nook_measure_site_paths *paths,
                                     nook_result_site *out_site);

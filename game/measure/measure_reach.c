@@ -72,6 +72,7 @@ static nook_result open_site(reach *r, uint32_t view)
                                   .cache = r->run->cache,
                                   .what = NOOK_MEASURE_ALL };
     nook_result result = nook_site_open(r->stage, &desc, &r->sites[view]);
+    r->run->sites += result == NOOK_OK;
     return result == NOOK_OK && !nook_interrupt_asked() ? write_site(r, view) : result;
 }
 
@@ -194,14 +195,27 @@ static nook_result measure_groups(reach *r)
 
 /* ---- The whole of it -------------------------------------------------------------------------------------------- */
 
-static size_t count_pending(const reach *r)
+static size_t count_pending(const reach *r, uint32_t view)
 {
     size_t pending = 0;
-    for (size_t i = 0; i < r->run->sweep->setting_count; i++) {
-        for (uint32_t view = 0; view < r->views->count; view++)
-            pending += is_pending(r, view, &r->run->sweep->settings[i]);
-    }
+    for (size_t i = 0; i < r->run->sweep->setting_count; i++)
+        pending += is_pending(r, view, &r->run->sweep->settings[i]);
     return pending;
+}
+
+/* Counts what is there. @return how many rows are not */
+static size_t count_reused(const reach *r)
+{
+    nook_measure_run *run = r->run;
+    size_t all = 0;
+    for (uint32_t view = 0; view < r->views->count; view++) {
+        size_t pending = count_pending(r, view);
+        run->sites += pending == 0; /* the others when they are opened */
+        run->reused += run->sweep->setting_count - pending;
+        nook_measure_progress_reused(&run->progress, run->sweep->setting_count - pending);
+        all += pending;
+    }
+    return all;
 }
 
 static nook_result measure_pending(reach *r)
@@ -217,13 +231,9 @@ nook_result nook_measure_reach(nook_measure_run *run, nook_stage *stage, nook_me
                                const nook_result_row *names)
 {
     reach r = { .run = run, .stage = stage, .names = names, .views = views };
-    size_t pending = count_pending(&r), reused = views->count * run->sweep->setting_count - pending;
-    run->sites += views->count;
-    run->reused += reused;
-    nook_measure_progress_reused(&run->progress, reused);
-    if (pending == 0)
+    if (count_reused(&r) == 0)
         return NOOK_OK;
-    r.sites = calloc(views->count, sizeof *r.sites);
+    r.sites = calloc(views->count, sizeof(nook_site *));
     r.rays = calloc(views->count, sizeof *r.rays);
     nook_result result =
         r.sites && r.rays ? measure_pending(&r) : nook_fail(NOOK_E_MEMORY, "no memory for %u cameras", views->count);

@@ -15,22 +15,25 @@ size_t nook_sweep_row_count(const nook_sweep *sweep)
     return (size_t)sweep->r_max_count * sweep->falloff_count * sweep->camera_count * sweep->setting_count;
 }
 
+/* @param scene  the row with what names scene, size and machine */
 static nook_result measure_reaches(nook_measure_run *run, nook_stage *stage, nook_measure_views *views,
-                                   nook_result_row *names)
+                                   const nook_result_row *scene)
 {
     const nook_sweep *sweep = run->sweep;
     double diagonal = nook_scene_diagonal(stage->scene);
     nook_result result = NOOK_OK;
-    for (uint32_t f = 0; f < sweep->falloff_count; f++) {
+    for (uint32_t i = 0; i < sweep->falloff_count * sweep->r_max_count; i++) {
         char falloff[64];
-        nook_param_print_value(nook_shared_param("falloff"), sweep->falloffs[f], falloff, sizeof falloff);
-        names->falloff = falloff;
-        for (uint32_t r = 0; r < sweep->r_max_count && result == NOOK_OK && !nook_interrupt_asked(); r++) {
-            const nook_sweep_r_max *reach = &sweep->r_max[r];
-            names->r_max = reach->metres ? reach->value : reach->value * diagonal;
-            names->r_max_part = reach->metres ? 0.0 : reach->value;
-            result = nook_measure_reach(run, stage, views, names);
-        }
+        nook_result_row names = *scene;
+        const nook_sweep_r_max *reach = &sweep->r_max[i % sweep->r_max_count];
+        if (result != NOOK_OK || nook_interrupt_asked())
+            break;
+        nook_param_print_value(nook_shared_param("falloff"), sweep->falloffs[i / sweep->r_max_count], falloff,
+                               sizeof falloff);
+        names.falloff = falloff;
+        names.r_max = reach->metres ? reach->value : reach->value * diagonal;
+        names.r_max_part = reach->metres ? 0.0 : reach->value;
+        result = nook_measure_reach(run, stage, views, &names);
     }
     return result;
 }

@@ -67,20 +67,18 @@ static nook_result copy(const nook_result_column *columns, size_t count, const v
     return nook_fail(NOOK_E_MEMORY, "no memory for the results");
 }
 
-/* Room for one more at the end. @return it, or NULL */
-static void *grow(void **items, size_t *count, size_t *capacity, size_t item_size)
+/* Makes room for one more at the end. @return NOOK_E_MEMORY; untouched then */
+static nook_result grow(void **items, size_t count, size_t *capacity, size_t item_size)
 {
-    if (*count == *capacity) {
-        size_t more = *capacity ? 2 * *capacity : 64;
-        void *grown = realloc(*items, more * item_size);
-        if (!grown) {
-            nook_fail(NOOK_E_MEMORY, "no memory for %zu results", more);
-            return NULL;
-        }
-        *items = grown;
-        *capacity = more;
-    }
-    return (char *)*items + *count * item_size;
+    if (count < *capacity)
+        return NOOK_OK;
+    size_t more = *capacity ? 2 * *capacity : 64;
+    void *grown = realloc(*items, more * item_size);
+    if (!grown)
+        return nook_fail(NOOK_E_MEMORY, "no memory for %zu results", more);
+    *items = grown;
+    *capacity = more;
+    return NOOK_OK;
 }
 
 nook_result nook_results_put(nook_results *results, const nook_result_row *row)
@@ -88,23 +86,19 @@ nook_result nook_results_put(nook_results *results, const nook_result_row *row)
     size_t count;
     const nook_result_column *columns = nook_result_row_columns(&count);
     nook_result_row own;
-    nook_result result = copy(columns, count, row, sizeof *row, &own);
+    void *rows = results->rows;
+    nook_result result = grow(&rows, results->row_count, &results->row_capacity, sizeof own);
+    results->rows = rows;
+    if (result == NOOK_OK)
+        result = copy(columns, count, row, sizeof *row, &own);
     if (result != NOOK_OK)
         return result;
     own.sample.visibility = (nook_grey){ 0 };
-    void *items = results->rows;
     nook_result_row *place = (nook_result_row *)nook_results_find(results, row);
-    if (place) {
+    if (place)
         nook_result_clear(columns, count, place, sizeof *place);
-    } else {
-        place = grow(&items, &results->row_count, &results->row_capacity, sizeof *place);
-        results->rows = items;
-        results->row_count += place != NULL;
-    }
-    if (!place) {
-        nook_result_clear(columns, count, &own, sizeof own);
-        return NOOK_E_MEMORY;
-    }
+    else
+        place = &results->rows[results->row_count++];
     *place = own;
     return NOOK_OK;
 }
@@ -114,22 +108,18 @@ nook_result nook_results_put_site(nook_results *results, const nook_result_site 
     size_t count;
     const nook_result_column *columns = nook_result_site_columns(&count);
     nook_result_site own;
-    nook_result result = copy(columns, count, site, sizeof *site, &own);
+    void *sites = results->sites;
+    nook_result result = grow(&sites, results->site_count, &results->site_capacity, sizeof own);
+    results->sites = sites;
+    if (result == NOOK_OK)
+        result = copy(columns, count, site, sizeof *site, &own);
     if (result != NOOK_OK)
         return result;
-    void *items = results->sites;
     nook_result_site *place = (nook_result_site *)nook_results_find_site(results, site);
-    if (place) {
+    if (place)
         nook_result_clear(columns, count, place, sizeof *place);
-    } else {
-        place = grow(&items, &results->site_count, &results->site_capacity, sizeof *place);
-        results->sites = items;
-        results->site_count += place != NULL;
-    }
-    if (!place) {
-        nook_result_clear(columns, count, &own, sizeof own);
-        return NOOK_E_MEMORY;
-    }
+    else
+        place = &results->sites[results->site_count++];
     *place = own;
     return NOOK_OK;
 }

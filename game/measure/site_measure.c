@@ -232,10 +232,17 @@ static nook_result measure_picture(nook_site *site, const nook_setting *setting,
     return result == NOOK_OK ? measure_errors(site, setting, what, picture, sample) : result;
 }
 
+static bool is_as_it_was(const nook_site *site)
+{
+    double r_max = NAN;
+    nook_ao_get_param(site->stage->ao, "ao.r_max", &r_max);
+    return r_max == site->r_max && site->width == site->stage->width && site->height == site->stage->height;
+}
+
 nook_result nook_site_measure(nook_site *site, const nook_setting *setting, uint32_t what, nook_sample *out_sample)
 {
     assert((what & ~site->what) == 0 && "a site is opened for all that is asked of it");
-    assert(site->width == site->stage->width && site->height == site->stage->height);
+    assert(is_as_it_was(site) && "r_max and size are the site's");
     nook_sample sample = empty_sample();
     nook_grey picture = { 0 };
     site->stage->frame_index = 0;
