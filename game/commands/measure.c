@@ -51,11 +51,23 @@ static nook_result gather(const nook_measure_options *options, const char *build
     return result;
 }
 
+/* The settings of the sweep, and that of the settings file. */
+static nook_result read_sweep(const nook_measure_options *options, nook_sweep *out)
+{
+    nook_result result = nook_sweep_read(options->sweep, out);
+    if (result != NOOK_OK || !options->settings)
+        return result;
+    result = nook_sweep_add(options->settings, out, &options->file.setting);
+    if (result != NOOK_OK)
+        nook_sweep_free(out);
+    return result;
+}
+
 static nook_result measure(const nook_app *app, const nook_measure_options *options, nook_measure_run *run)
 {
     nook_scene_list scenes;
     nook_sweep sweep;
-    nook_result result = nook_sweep_read(options->sweep, &sweep);
+    nook_result result = read_sweep(options, &sweep);
     if (result != NOOK_OK)
         return result;
     result = list_scenes(options, &scenes);
@@ -142,6 +154,8 @@ int nook_command_measure(const nook_app *app, int argc, char **argv)
     int exit_code;
     if (!nook_measure_options_read(app, argc, argv, &options, &exit_code))
         return exit_code;
+    if (options.settings && nook_settings_file_read(options.settings, &options.file) != NOOK_OK)
+        return NOOK_EXIT_FAILED;
     if (nook_origin_build(app->root, build) != NOOK_OK || nook_journal_open(options.out, &journal) != NOOK_OK)
         return NOOK_EXIT_FAILED;
     nook_measure_run run = { .build = build, .results = &results, .journal = &journal };

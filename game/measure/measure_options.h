@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/platform/context.h"
 #include "game/command.h"
+#include "game/settings/settings_file.h"
 
 enum { NOOK_MEASURE_PATH_MAX = 4096 };
 
@@ -12,6 +13,7 @@ typedef struct nook_measure_options {
     const char *scene_folder; /**< Every scene in it and in its own folders; NULL: none. */
     int32_t suite;            /**< 0 quick, 1 full. */
     const char *sweep;        /**< A file in the place of a suite's. */
+    const char *settings;     /**< A settings file, measured beside the sweep; NULL: none. */
     const char *out;
     nook_option_list merge; /**< Folders whose rows are taken in. */
     bool keep;              /**< Rows of other builds count. */
@@ -19,6 +21,7 @@ typedef struct nook_measure_options {
     const char *document;   /**< That the tables go into; NULL: none. */
     const char *cache;
     nook_backend backend;
+    nook_settings_file file; /**< What `settings` holds: for the command to read. */
     char default_cache[NOOK_MEASURE_PATH_MAX], suite_path[NOOK_MEASURE_PATH_MAX];
     char default_scene[NOOK_MEASURE_PATH_MAX];
 } nook_measure_options;

@@ -49,4 +49,10 @@ typedef struct nook_sweep {
 nook_result nook_sweep_read(const char *path, nook_sweep *out_sweep);
 /** The same from a text. @param name  stands for the file in messages */
 nook_result nook_sweep_parse(const char *name, const char *text, size_t size, nook_sweep *out_sweep);
+/**
+ * Adds a setting unless there is one that means the same.
+ * @param where  names its source in messages
+ * @return NOOK_E_FORMAT too many, NOOK_E_MEMORY; as it was then
+ */
+nook_result nook_sweep_add(const char *where, nook_sweep *sweep, const nook_setting *setting);
 void nook_sweep_free(nook_sweep *sweep); /**< Zeroed ones are allowed. */

@@ -77,7 +77,7 @@ static bool same(const nook_setting *a, const nook_setting *b)
     return strcmp(nook_setting_print(a, first), nook_setting_print(b, second)) == 0;
 }
 
-static nook_result add_setting(const char *where, nook_sweep *sweep, const nook_setting *setting)
+nook_result nook_sweep_add(const char *where, nook_sweep *sweep, const nook_setting *setting)
 {
     nook_setting plain = *setting;
     make_plain(&plain);
@@ -116,7 +116,7 @@ nook_result nook_sweep_block_expand(const nook_sweep_block *block, nook_sweep *s
     char where[WHERE_MAX_BYTES];
     place(block, block->list_count > 0 ? block->lists[0].line : 0, where);
     nook_setting setting = nook_setting_initial(block->technique);
-    nook_result result = block->technique->exact ? NOOK_OK : add_setting(where, sweep, &setting);
+    nook_result result = block->technique->exact ? NOOK_OK : nook_sweep_add(where, sweep, &setting);
     uint64_t combinations = 1;
     for (uint32_t i = 0; i < block->list_count; i++) {
         combinations *= block->lists[i].count;
@@ -127,7 +127,7 @@ nook_result nook_sweep_block_expand(const nook_sweep_block *block, nook_sweep *s
     for (uint64_t i = 0; block->list_count > 0 && i < combinations && result == NOOK_OK; i++) {
         result = combine(block, i, &setting);
         if (result == NOOK_OK)
-            result = add_setting(where, sweep, &setting);
+            result = nook_sweep_add(where, sweep, &setting);
     }
     return result;
 }

@@ -57,6 +57,15 @@ test_bake_makes_the_volumes_of_the_file() {
     assert_holds "$(cat "$tmp/printed")" 42x
 }
 
+test_measure_takes_the_setting_beside_the_sweep() {
+    write_setting
+    printf 'size = 24x16\nr_max = 0.1\nnoise = 0.05\nrays_max = 64\n[ssao]\nsamples = 4\n' >"$tmp/sweep.txt"
+    nook measure "$crate" --backend osmesa --cache "$tmp/cache" --sweep "$tmp/sweep.txt" --settings "$tmp/setting.txt" \
+        --out "$tmp/measured" >/dev/null 2>&1 || true # 24 x 16 pixels need not be exact
+    assert_holds "$(cat "$tmp/measured/measure.csv")" 'volume rays=3 ao.filter=none resolution=24'
+    assert_holds "$(cat "$tmp/measured/measure.csv")" 'ssao samples=4'
+}
+
 # refused TEXT COMMAND...: one line with that text, exit code 1, nothing written.
 refused() {
     local text=$1 said
@@ -71,6 +80,7 @@ test_a_wrong_file_is_one_line_and_nothing_is_done() {
     refused 'no such file' compare --settings "$tmp/missing.txt" --out "$tmp/refused"
     printf 'technique = volume\nrayz = 3\n' >"$tmp/wrong.txt"
     refused 'wrong.txt:2: volume has no parameter rayz; did you mean rays?' compare --settings "$tmp/wrong.txt" --out "$tmp/refused"
+    refused 'wrong.txt:2' nook measure "$crate" --settings "$tmp/wrong.txt" --out "$tmp/refused"
     refused 'wrong.txt:2' nook bake "$crate" --settings "$tmp/wrong.txt" --cache "$tmp/refused"
     printf 'technique\0= volume' >"$tmp/bytes.txt"
     refused 'no settings file' compare --settings "$tmp/bytes.txt" --out "$tmp/refused"

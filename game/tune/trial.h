@@ -1,0 +1,37 @@
+/**
+ * trial.h - one setting that was tried: what it did in some views of the scene, and what follows for all of them.
+ */
+#pragma once
+#include "game/tune/goal.h"
+#include "game/tune/space.h"
+
+enum { NOOK_TUNE_VIEWS_MAX = 64 };
+
+/** A setting in one view. */
+typedef struct nook_tune_view {
+    double squared; /**< Mean squared error of visibility, without what the truth's own noise adds to it. */
+    double pixels;  /**< That it is the mean of. */
+    double ms;      /**< NaN: not timed. */
+} nook_tune_view;
+
+/** What a number of views say. */
+typedef struct nook_tune_estimate {
+    nook_tune_cost cost;   /**< RMSE pooled over all pixels; mean of the times. */
+    double error_standard; /**< Standard error of the RMSE, from how the views differ; NaN for a single view. */
+    uint32_t views;
+} nook_tune_estimate;
+
+typedef struct nook_tune_trial {
+    nook_tune_point point;
+    nook_setting setting;
+    nook_tune_view views[NOOK_TUNE_VIEWS_MAX];
+    uint32_t view_count; /**< Measured so far, from the first on. */
+} nook_tune_trial;
+
+nook_tune_estimate nook_tune_pool(const nook_tune_view *views, uint32_t count);
+
+/**
+ * So many views of each of two sets make twice the standard error of the difference of their RMSE no more than `part` of it.
+ * @param estimate  from a few of them
+ */
+double nook_tune_views_needed(const nook_tune_estimate *estimate, double part);

@@ -1,0 +1,120 @@
+#include "game/tune/trials.h"
+#include <assert.h>
+#include <math.h>
+
+bool nook_tune_trials_open(const nook_tune_trials *trials)
+{
+    return trials->count < trials->desc->tries_max;
+}
+
+nook_tune_trial *nook_tune_trials_find(const nook_tune_trials *trials, const nook_tune_point *point)
+{
+    for (uint32_t i = 0; i < trials->count; i++) {
+        if (nook_tune_same(&trials->items[i].point, point))
+            return &trials->items[i];
+    }
+    return NULL;
+}
+
+static nook_result measure(nook_tune_trials *trials, nook_tune_trial *trial, uint32_t view, bool timed)
+{
+    const nook_tune_search_desc *desc = trials->desc;
+    trials->measurements++;
+    return desc->measure(desc->user, &trial->setting, view, timed, &trial->views[view]);
+}
+
+/* Timing takes several frames; of the first views one is timed. */
+nook_result nook_tune_trials_try(nook_tune_trials *trials, const char *doing, const nook_tune_point *point)
+{
+    const nook_tune_search_desc *desc = trials->desc;
+    if (nook_tune_trials_find(trials, point))
+        return NOOK_OK;
+    assert(nook_tune_trials_open(trials));
+    if (desc->tell)
+        desc->tell(desc->user, doing, trials->count, nook_tune_trials_best(trials, UINT32_MAX));
+    nook_tune_trial *trial = &trials->items[trials->count];
+    *trial = (nook_tune_trial){ .point = *point, .setting = nook_tune_setting(desc->space, point) };
+    for (uint32_t view = 0; view < desc->views_first; view++) {
+        nook_result result = measure(trials, trial, view, view == 0);
+        if (result != NOOK_OK)
+            return result;
+    }
+    trial->view_count = desc->views_first;
+    trials->count++;
+    return NOOK_OK;
+}
+
+nook_result nook_tune_trials_extend(nook_tune_trials *trials, nook_tune_trial *trial, uint32_t views)
+{
+    const nook_tune_search_desc *desc = trials->desc;
+    if (views <= trial->view_count)
+        return NOOK_OK;
+    if (desc->tell)
+        desc->tell(desc->user, "confirming", trials->count, trial);
+    for (uint32_t view = 0; view < views; view++) {
+        if (view < trial->view_count && !isnan(trial->views[view].ms))
+            continue;
+        nook_result result = measure(trials, trial, view, true);
+        if (result != NOOK_OK)
+            return result;
+    }
+    trial->view_count = views;
+    return NOOK_OK;
+}
+
+/* Of the technique's trials the one in the most views: how those differ from the first is much the same for its neighbours. */
+static const nook_tune_trial *reference_of(const nook_tune_trials *trials, const nook_tune_trial *trial)
+{
+    const nook_tune_trial *best = trial;
+    for (uint32_t i = 0; i < trials->count; i++) {
+        const nook_tune_trial *other = &trials->items[i];
+        if (other->point.technique == trial->point.technique && other->view_count > best->view_count)
+            best = other;
+    }
+    return best;
+}
+
+/* The mean of those times of the reference that the trial has too. */
+static double common_ms(const nook_tune_trial *reference, const nook_tune_trial *trial)
+{
+    double sum = 0.0;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < trial->view_count; i++) {
+        if (isnan(trial->views[i].ms))
+            continue;
+        sum += reference->views[i].ms;
+        count++;
+    }
+    return sum / count;
+}
+
+nook_tune_cost nook_tune_trials_cost(const nook_tune_trials *trials, const nook_tune_trial *trial)
+{
+    const nook_tune_trial *reference = reference_of(trials, trial);
+    nook_tune_cost own = nook_tune_pool(trial->views, trial->view_count).cost;
+    if (reference == trial)
+        return own;
+    nook_tune_cost all = nook_tune_pool(reference->views, reference->view_count).cost;
+    nook_tune_cost part = nook_tune_pool(reference->views, trial->view_count).cost;
+    if (part.error > 0.0)
+        own.error *= all.error / part.error;
+    own.ms *= all.ms / common_ms(reference, trial);
+    return own;
+}
+
+nook_tune_trial *nook_tune_trials_best(const nook_tune_trials *trials, uint32_t technique)
+{
+    nook_tune_trial *best = NULL;
+    nook_tune_cost best_cost = { 0 };
+    for (uint32_t i = 0; i < trials->count; i++) {
+        nook_tune_trial *trial = &trials->items[i];
+        if (technique != UINT32_MAX && trial->point.technique != technique)
+            continue;
+        nook_tune_cost cost = nook_tune_trials_cost(trials, trial);
+        if (best && !nook_tune_better(&trials->desc->goal, &cost, &best_cost))
+            continue;
+        best = trial;
+        best_cost = cost;
+    }
+    return best;
+}

@@ -1,0 +1,30 @@
+/**
+ * trials.h - the settings tried so far, and how what they did in few views is scaled to what they would do in many.
+ */
+#pragma once
+#include "game/tune/search.h"
+
+typedef struct nook_tune_trials {
+    const nook_tune_search_desc *desc;
+    nook_tune_trial *items; /**< NOOK_TUNE_TRIALS_MAX; owned. */
+    uint32_t count;
+    uint32_t measurements;
+} nook_tune_trials;
+
+/** Whether another setting may be tried. */
+bool nook_tune_trials_open(const nook_tune_trials *trials);
+
+/** The trial of a point, or NULL. */
+nook_tune_trial *nook_tune_trials_find(const nook_tune_trials *trials, const nook_tune_point *point);
+
+/** Tries a point in the first views, unless it has been. There must be room. @return what measure returned */
+nook_result nook_tune_trials_try(nook_tune_trials *trials, const char *doing, const nook_tune_point *point);
+
+/** Measures and times a trial in that many views. @return what measure returned */
+nook_result nook_tune_trials_extend(nook_tune_trials *trials, nook_tune_trial *trial, uint32_t views);
+
+/** What a trial would do in as many views as any setting of its technique was measured in. */
+nook_tune_cost nook_tune_trials_cost(const nook_tune_trials *trials, const nook_tune_trial *trial);
+
+/** The best by that. @param technique  of the space, or UINT32_MAX: all @return NULL: none was tried */
+nook_tune_trial *nook_tune_trials_best(const nook_tune_trials *trials, uint32_t technique);

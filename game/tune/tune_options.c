@@ -1,0 +1,159 @@
+#include "game/tune/tune_options.h"
+#include "engine/core/file.h"
+#include "engine/core/log.h"
+#include "game/compare/choice.h"
+#include "game/techniques.h"
+#include "game/tune/search.h"
+#include <stdio.h>
+#include <string.h>
+
+enum { TRIES_DEFAULT = 70, RAYS_DEFAULT = 128 };
+
+static bool read_backend(void *target, const char *text)
+{
+    return nook_backend_parse(text, target);
+}
+
+/* The techniques to choose among: those of the list, else all; never an exact one, which is what they are measured against. */
+static nook_result make_space(const char *list, nook_tune_space *out)
+{
+    nook_compare_choice choice;
+    nook_result result = nook_compare_choose(list, &choice);
+    for (uint32_t i = 0; i < choice.count && result == NOOK_OK; i++) {
+        if (!choice.techniques[i]->exact)
+            nook_tune_space_add(out, choice.techniques[i]);
+    }
+    if (result == NOOK_OK && out->technique_count == 0)
+        return nook_fail(NOOK_E_ARG, "--techniques %s: that is the truth itself; give others to choose among", list);
+    return result;
+}
+
+static nook_result check(nook_tune_options *options)
+{
+    static const char falloff[] = "ao.falloff";
+    if (options->goal.max_error == 0.0 && options->goal.max_ms == 0.0)
+        return nook_fail(NOOK_E_ARG, "tune: no budget; give --max-error E, --max-ms T or both");
+    if (options->falloff && nook_compare_check_param(falloff, strlen(falloff), options->falloff) != NOOK_OK)
+        return NOOK_E_ARG;
+    return make_space(options->techniques, &options->space);
+}
+
+/* tuned_<scene>.txt, here. */
+static const char *default_out(const char *scene, char out[NOOK_TUNE_PATH_MAX])
+{
+    const char *name = nook_path_name(scene), *extension = nook_path_extension(name);
+    snprintf(out, NOOK_TUNE_PATH_MAX, "tuned_%.*s.txt", (int)(extension - name), name);
+    return out;
+}
+
+bool nook_tune_options_read(const nook_app *app, int argc, char **argv, nook_tune_options *out, int *out_exit_code)
+{
+    *out = (nook_tune_options){
+        .size = { 384, 216 }, .backend = NOOK_BACKEND_AUTO, .tries = TRIES_DEFAULT, .reference_rays = RAYS_DEFAULT
+    };
+    out->scene = nook_path_join(out->default_scene, sizeof out->default_scene, app->root, "content/hall/hall.glb");
+    out->cache = nook_path_join(out->default_cache, sizeof out->default_cache, app->root, "cache");
+    const nook_param *r_max = nook_shared_param("r_max");
+    const nook_option options[] = {
+        { .name = "max-error",
+          .kind = NOOK_OPTION_NUMBER,
+          .target = &out->goal.max_error,
+          .placeholder = "E",
+          .lowest = 1e-6,
+          .highest = 1.0,
+          .help = "budget: root mean square error of visibility, over all cameras" },
+        { .name = "max-ms",
+          .kind = NOOK_OPTION_NUMBER,
+          .target = &out->goal.max_ms,
+          .placeholder = "T",
+          .lowest = 1e-6,
+          .highest = 1e6,
+          .help = "budget: milliseconds a frame, mean of all cameras, on this machine at --size" },
+        { .name = "size",
+          .kind = NOOK_OPTION_SIZE,
+          .target = &out->size,
+          .placeholder = "WxH",
+          .lowest = 1,
+          .highest = 16384,
+          .help = "of the pictures in pixels; default 384x216" },
+        { .name = "r-max",
+          .kind = NOOK_OPTION_NUMBER,
+          .target = &out->r_max,
+          .placeholder = "M",
+          .lowest = r_max->lowest,
+          .highest = r_max->highest,
+          .help = "reach of the occlusion in metres; default: a tenth of the scene's diagonal" },
+        { .name = "falloff",
+          .kind = NOOK_OPTION_TEXT,
+          .target = &out->falloff,
+          .placeholder = "NAME",
+          .help = "hard, linear, quadratic, wendland or exponential" },
+        { .name = "techniques",
+          .kind = NOOK_OPTION_TEXT,
+          .target = &out->techniques,
+          .placeholder = "a,b,c",
+          .help = "to choose among; default: all" },
+        { .name = "cameras",
+          .kind = NOOK_OPTION_INT,
+          .target = &out->cameras,
+          .placeholder = "N",
+          .lowest = 2,
+          .highest = NOOK_TUNE_VIEWS_MAX,
+          .help = "to choose by, and as many others for the proof; default: as many as the proof needs" },
+        { .name = "tries",
+          .kind = NOOK_OPTION_INT,
+          .target = &out->tries,
+          .placeholder = "N",
+          .lowest = 1,
+          .highest = NOOK_TUNE_TRIALS_MAX,
+          .help = "settings to try at most; default 70" },
+        { .name = "reference-rays",
+          .kind = NOOK_OPTION_INT,
+          .target = &out->reference_rays,
+          .placeholder = "N",
+          .lowest = 2,
+          .highest = 65536,
+          .help = "rays per pixel of the truth at most; default 128" },
+        { .name = "out",
+          .kind = NOOK_OPTION_TEXT,
+          .target = &out->out,
+          .placeholder = "FILE",
+          .help = "the settings file; default tuned_<scene>.txt" },
+        { .name = "backend",
+          .kind = NOOK_OPTION_CUSTOM,
+          .target = &out->backend,
+          .placeholder = "NAME",
+          .read = read_backend,
+          .expects = "window, osmesa, egl or auto",
+          .help = "window, osmesa or egl; default: what this machine has" },
+        { .name = "cache",
+          .kind = NOOK_OPTION_TEXT,
+          .target = &out->cache,
+          .placeholder = "DIR",
+          .help = "where baked volumes and truths are kept; default: cache/ of Nook" },
+        { .name = "json", .kind = NOOK_OPTION_FLAG, .target = &out->json, .help = "print the result as JSON" },
+    };
+    const nook_usage usage = {
+        .command = "tune",
+        .summary =
+            "Finds the cheapest setting within an error, or the most accurate within a time, for a glTF scene "
+            "(default\nthe demo level): technique, rays, steps, resolution of volumes, scale, filter. Chooses by "
+            "sampled cameras,\nproves it on others, and writes a settings file.",
+        .positionals = "[SCENE]",
+        .positional_max = 1,
+        .options = options,
+        .option_count = NOOK_COUNT(options),
+        .details = "With both budgets: the most accurate setting within both. When nothing fits, the nearest is told, "
+                   "nothing is\nwritten, and the exit code is 1; so it is when the error on the other cameras is not "
+                   "within 15 % of the predicted.\nUse the file: ./nook compare SCENE --settings FILE\n",
+    };
+    nook_arguments arguments;
+    if (!nook_arguments_read(&usage, argc, argv, &arguments, out_exit_code))
+        return false;
+    if (arguments.positional_count > 0)
+        out->scene = arguments.positionals[0];
+    if (!out->out)
+        out->out = default_out(out->scene, out->default_out);
+    *out_exit_code = NOOK_EXIT_USAGE;
+    return check(out) == NOOK_OK;
+}

@@ -1,0 +1,136 @@
+#include "game/tune/tune_run.h"
+#include "engine/core/clock.h"
+#include "engine/core/log.h"
+#include "game/cameras/sample.h"
+#include "game/techniques.h"
+#include "game/tune/tune_progress.h"
+#include "game/tune/tune_views.h"
+#include "game/volumes.h"
+#include <math.h>
+#include <stdlib.h>
+
+enum { VIEWS_FIRST = 2, VIEWS_FEW = 8, VIEWS_MAX = 32 };
+/* Of the truth: a third of most errors; what it adds in quadrature is subtracted. */
+static const double noise = 0.02;
+
+/* What the callbacks of the search need. */
+typedef struct tuning {
+    nook_tune_views views;
+    nook_tune_progress progress;
+} tuning;
+
+static nook_result measure(void *user, const nook_setting *setting, uint32_t view, bool timed, nook_tune_view *out)
+{
+    tuning *t = user;
+    return nook_tune_views_measure(&t->views, setting, NOOK_TUNE_CHOOSE, view, timed, out);
+}
+
+static void tell(void *user, const char *doing, uint32_t tried, const nook_tune_trial *best)
+{
+    tuning *t = user;
+    nook_tune_progress_search(&t->progress, doing, tried, best);
+}
+
+static uint32_t round_up(uint32_t value, uint32_t period)
+{
+    return (value + period - 1) / period * period;
+}
+
+/* Numbers of views as the scene's cameras have it: as many of each. */
+static nook_tune_search_desc describe(const nook_scene *scene, const nook_tune_options *options, tuning *t)
+{
+    uint32_t period = nook_cameras_period(scene), given = (uint32_t)options->cameras;
+    uint32_t most = period < VIEWS_MAX ? VIEWS_MAX / period * period : VIEWS_MAX;
+    uint32_t few = round_up(VIEWS_FEW, period);
+    nook_tune_search_desc desc = { .space = &options->space,
+                                   .goal = options->goal,
+                                   .views_max = given ? given : most,
+                                   .period = period,
+                                   .part = given ? 0.0 : NOOK_TUNE_TOLERANCE,
+                                   .tries_max = (uint32_t)options->tries,
+                                   .measure = measure,
+                                   .tell = tell,
+                                   .user = t };
+    desc.views_few = few < desc.views_max ? few : desc.views_max;
+    desc.views_first = VIEWS_FIRST < desc.views_few ? VIEWS_FIRST : desc.views_few;
+    return desc;
+}
+
+static nook_result set_params(nook_stage *stage, const nook_tune_options *options, nook_tune_result *result)
+{
+    result->r_max = options->r_max > 0.0 ? options->r_max : nook_volumes_default_r_max(stage->scene);
+    if (result->r_max == 0.0)
+        return nook_fail(NOOK_E_FORMAT, "%s: what it draws has no size, so there is nothing to tune for",
+                         stage->scene->path);
+    nook_result set = nook_ao_set_param(stage->ao, "ao.r_max", result->r_max);
+    if (set == NOOK_OK && options->falloff)
+        set = nook_ao_parse_param(stage->ao, "ao.falloff", options->falloff);
+    double falloff;
+    if (set == NOOK_OK)
+        set = nook_ao_get_param(stage->ao, "ao.falloff", &falloff);
+    if (set == NOOK_OK)
+        nook_param_print_value(nook_shared_param("falloff"), falloff, result->falloff, sizeof result->falloff);
+    return set;
+}
+
+/* The winner in as many views as it was chosen by, none of which it has seen. */
+static nook_result prove(tuning *t, nook_tune_result *result)
+{
+    const nook_tune_estimate *predicted = &result->outcome.estimate;
+    nook_tune_view views[NOOK_TUNE_VIEWS_MAX];
+    for (uint32_t i = 0; i < predicted->views; i++) {
+        nook_tune_progress_proof(&t->progress, i, predicted->views);
+        nook_result measured =
+            nook_tune_views_measure(&t->views, &result->outcome.best.setting, NOOK_TUNE_PROVE, i, true, &views[i]);
+        if (measured != NOOK_OK)
+            return measured;
+    }
+    result->actual = nook_tune_pool(views, predicted->views);
+    result->difference = result->actual.cost.error / predicted->cost.error - 1.0;
+    result->difference_standard =
+        hypot(result->actual.error_standard, predicted->error_standard) / predicted->cost.error;
+    result->holds = fabs(result->difference) <= NOOK_TUNE_TOLERANCE;
+    return NOOK_OK;
+}
+
+static nook_result search_and_prove(tuning *t, nook_stage *stage, const nook_tune_options *options,
+                                    nook_tune_result *result)
+{
+    const nook_tune_search_desc search = describe(stage->scene, options, t);
+    const nook_tune_views_desc views = { .cache = options->cache,
+                                         .r_max = result->r_max,
+                                         .noise = noise,
+                                         .rays_max = (uint32_t)options->reference_rays,
+                                         .views_max = search.views_max };
+    t->progress = nook_tune_progress_begin(&options->goal, search.tries_max);
+    nook_result done = nook_tune_views_open(stage, &views, &t->views);
+    if (done == NOOK_OK)
+        done = nook_tune_search(&search, &result->outcome);
+    if (done == NOOK_OK && result->outcome.fits)
+        done = prove(t, result);
+    result->noise_worst = t->views.noise_worst;
+    nook_tune_progress_end(&t->progress);
+    nook_tune_views_close(&t->views);
+    return done;
+}
+
+nook_result nook_tune_run(nook_stage *stage, const nook_tune_options *options, nook_tune_result *out)
+{
+    double start = nook_clock_ms();
+    nook_tune_result result = { .settings = nook_tune_space_size(&options->space) };
+    tuning *t = calloc(1, sizeof *t);
+    if (!t)
+        return nook_fail(NOOK_E_MEMORY, "tune: no memory");
+    nook_result done = set_params(stage, options, &result);
+    const nook_game_world_desc world = { 0, result.r_max, options->cache };
+    if (done == NOOK_OK)
+        done = nook_stage_fill(stage, &world);
+    if (done == NOOK_OK)
+        done = search_and_prove(t, stage, options, &result);
+    free(t);
+    if (done != NOOK_OK)
+        return done;
+    result.seconds = (nook_clock_ms() - start) / 1000.0;
+    *out = result;
+    return NOOK_OK;
+}

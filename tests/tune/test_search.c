@@ -1,0 +1,324 @@
+/* The search against models of what settings do, whose best setting is found by trying all of them. */
+#include "engine/core/log.h"
+#include "game/techniques.h"
+#include "game/tune/search.h"
+#include "tests/support/log_capture.h"
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+/* What a technique's model is made of; counts stand for the product of all of them, 1 at their initial values. */
+typedef struct law {
+    double ms;         /* of the initial setting, without what does not depend on it */
+    double ms_fixed;   /* of every setting */
+    double bias;       /* error that no setting takes away */
+    double noise;      /* error that falls with the root of the counts */
+    double voxels;     /* error of a volume of 256, falls with the resolution */
+    double coarse[3];  /* error of the scale full, half, quarter */
+    double blurred[3]; /* error of the filter none, disc, tile */
+    double quiet[3];   /* what it leaves of the noise */
+} law;
+
+typedef struct world {
+    nook_tune_space space;
+    law laws[NOOK_TUNE_TECHNIQUES_MAX];
+    double unevenness; /* of views */
+    uint32_t measured, failing_at;
+    uint32_t tells;
+} world;
+
+static double value_of(const nook_setting *setting, const char *name)
+{
+    return nook_setting_get(setting, nook_shared_param(name));
+}
+
+/* The product of all counts over that of their initial values, each to its power: not all axes are worth the same. */
+static double work_of(const nook_setting *setting, double power_of_later)
+{
+    const nook_ao_technique *technique = setting->technique;
+    double work = 1.0, power = 1.0;
+    for (uint32_t i = 0; i < technique->param_count; i++) {
+        const nook_param *param = &technique->params[i];
+        if (param->type != NOOK_PARAM_INT || param->unit != NOOK_UNIT_COUNT)
+            continue;
+        double part = fmax(nook_setting_get(setting, param), 0.5) / fmax(param->initial, 0.5);
+        work *= pow(part, power);
+        power *= power_of_later;
+    }
+    return work;
+}
+
+static nook_tune_cost cost_of(const world *w, uint32_t technique, const nook_setting *setting)
+{
+    const law *l = &w->laws[technique];
+    int scale = (int)value_of(setting, "scale"), filter = (int)value_of(setting, "filter");
+    double resolution = setting->resolution ? setting->resolution / 256.0 : 1.0;
+    double noise = l->noise * l->quiet[filter] / sqrt(work_of(setting, 0.5));
+    double squared = l->bias * l->bias + noise * noise + pow(l->voxels / resolution, 2.0) + pow(l->coarse[scale], 2.0) +
+                     pow(l->blurred[filter], 2.0);
+    double ms = l->ms_fixed + l->ms * work_of(setting, 0.8) * pow(0.25, scale) * pow(resolution, 0.2) + 1.5 * filter;
+    return (nook_tune_cost){ sqrt(squared), ms };
+}
+
+static uint32_t technique_of(const world *w, const nook_setting *setting)
+{
+    uint32_t i = 0;
+    while (w->space.techniques[i].technique != setting->technique)
+        i++;
+    return i;
+}
+
+static nook_result measure(void *user, const nook_setting *setting, uint32_t view, bool timed, nook_tune_view *out)
+{
+    world *w = user;
+    nook_tune_cost cost = cost_of(w, technique_of(w, setting), setting);
+    if (w->measured++ == w->failing_at)
+        return nook_fail(NOOK_E_DEVICE, "the device is gone");
+    double lighter = 1.0 + w->unevenness * sin(2.0 * view), faster = 1.0 + 0.5 * w->unevenness * cos(5.0 * view);
+    *out = (nook_tune_view){ pow(cost.error * lighter, 2.0), 1000.0, timed ? cost.ms * faster : NAN };
+    return NOOK_OK;
+}
+
+static void tell(void *user, const char *doing, uint32_t tried, const nook_tune_trial *best)
+{
+    world *w = user;
+    assert_true(*doing != '\0');
+    assert_int_equal(best == NULL, tried == 0);
+    w->tells++;
+}
+
+static world make_world(double unevenness)
+{
+    world w = { .unevenness = unevenness, .failing_at = UINT32_MAX };
+    size_t count;
+    const nook_ao_technique *const *techniques = nook_techniques(&count);
+    for (size_t i = 0; i < count; i++) {
+        if (techniques[i]->exact)
+            continue;
+        double k = (double)w.space.technique_count;
+        w.laws[w.space.technique_count] = (law){ .ms = 100.0 / (1.0 + k),
+                                                 .ms_fixed = 3.0,
+                                                 .bias = 0.02 + 0.03 * k,
+                                                 .noise = 0.05,
+                                                 .voxels = 0.01,
+                                                 .coarse = { 0.0, 0.02, 0.05 },
+                                                 .blurred = { 0.0, 0.012, 0.02 },
+                                                 .quiet = { 1.0, 0.35, 0.25 } };
+        nook_tune_space_add(&w.space, techniques[i]);
+    }
+    return w;
+}
+
+static nook_tune_search_desc desc_of(world *w, double max_error, double max_ms)
+{
+    return (nook_tune_search_desc){ .space = &w->space,
+                                    .goal = { max_error, max_ms },
+                                    .views_first = 2,
+                                    .views_few = 8,
+                                    .views_max = 24,
+                                    .period = 1,
+                                    .part = 0.15,
+                                    .tries_max = 120,
+                                    .measure = measure,
+                                    .tell = tell,
+                                    .user = w };
+}
+
+static nook_tune_outcome must_search(world *w, const nook_tune_search_desc *desc)
+{
+    nook_tune_outcome outcome;
+    (void)w;
+    assert_int_equal(nook_tune_search(desc, &outcome), NOOK_OK);
+    return outcome;
+}
+
+/* What all settings of the space do, by going through all of them. */
+static nook_tune_cost best_of_all(const world *w, const nook_tune_goal *goal)
+{
+    nook_tune_cost best = { INFINITY, INFINITY };
+    for (uint32_t t = 0; t < w->space.technique_count; t++) {
+        const nook_tune_ladders *ladders = &w->space.techniques[t];
+        nook_tune_point point = { .technique = t };
+        for (bool more = true; more;) {
+            nook_setting setting = nook_tune_setting(&w->space, &point);
+            nook_tune_cost cost = cost_of(w, t, &setting);
+            if (nook_tune_better(goal, &cost, &best))
+                best = cost;
+            more = false;
+            for (uint32_t i = 0; i < ladders->axis_count && !more; i++) {
+                more = nook_tune_step(&w->space, &point, i, 1);
+                if (!more)
+                    point.rungs[i] = 0;
+            }
+        }
+    }
+    return best;
+}
+
+static void check_against_all(world *w, double max_error, double max_ms, double factor)
+{
+    nook_tune_search_desc desc = desc_of(w, max_error, max_ms);
+    nook_tune_outcome found = must_search(w, &desc);
+    nook_tune_cost best = best_of_all(w, &desc.goal);
+    nook_tune_cost true_cost = cost_of(w, found.best.point.technique, &found.best.setting);
+    char text[NOOK_SETTING_TEXT_MAX];
+    print_message("error %g, ms %g: found %.4f at %.2f ms, best %.4f at %.2f ms, %u tried, %u measured: %s\n",
+                  max_error, max_ms, true_cost.error, true_cost.ms, best.error, best.ms, found.tried,
+                  found.measurements, nook_setting_print(&found.best.setting, text));
+    assert_true(found.fits);
+    assert_true(nook_tune_fits(&desc.goal, &found.estimate.cost));
+    assert_true(nook_tune_objective(&desc.goal, &true_cost) <= factor * nook_tune_objective(&desc.goal, &best));
+    assert_true(found.tried <= desc.tries_max && found.tried < 0.2 * nook_tune_space_size(&w->space));
+    assert_int_equal(found.measurements, w->measured);
+    assert_true(w->tells >= found.tried);
+}
+
+static void test_the_cheapest_setting_is_found_where_views_are_alike(void **state)
+{
+    (void)state;
+    static const double errors[] = { 0.03, 0.045, 0.06, 0.09, 0.15 };
+    for (size_t i = 0; i < NOOK_COUNT(errors); i++) {
+        world w = make_world(0.0);
+        check_against_all(&w, errors[i], 0.0, 1.5);
+    }
+}
+
+static void test_the_most_accurate_setting_is_found_where_views_are_alike(void **state)
+{
+    (void)state;
+    static const double times[] = { 5.0, 10.0, 25.0, 60.0, 200.0 };
+    for (size_t i = 0; i < NOOK_COUNT(times); i++) {
+        world w = make_world(0.0);
+        check_against_all(&w, 0.0, times[i], 1.15);
+    }
+}
+
+static void test_views_that_differ_cost_little(void **state)
+{
+    (void)state;
+    static const double unevenness[] = { 0.1, 0.3, 0.5 };
+    for (size_t i = 0; i < NOOK_COUNT(unevenness); i++) {
+        world w = make_world(unevenness[i]);
+        check_against_all(&w, 0.06, 0.0, 1.5);
+        w = make_world(unevenness[i]);
+        check_against_all(&w, 0.0, 20.0, 1.15);
+    }
+}
+
+static void test_with_two_limits_the_error_decides_among_what_is_within_both(void **state)
+{
+    (void)state;
+    world w = make_world(0.0);
+    check_against_all(&w, 0.08, 20.0, 1.15);
+}
+
+static void test_when_nothing_fits_the_nearest_is_told(void **state)
+{
+    (void)state;
+    static const nook_tune_goal goals[] = { { 0.001, 0.0 }, { 0.0, 0.5 }, { 0.03, 4.0 } };
+    for (size_t i = 0; i < NOOK_COUNT(goals); i++) {
+        world w = make_world(0.2);
+        nook_tune_search_desc desc = desc_of(&w, goals[i].max_error, goals[i].max_ms);
+        nook_tune_outcome found = must_search(&w, &desc);
+        nook_tune_cost best = best_of_all(&w, &desc.goal);
+        nook_tune_cost true_cost = cost_of(&w, found.best.point.technique, &found.best.setting);
+        assert_false(found.fits);
+        assert_true(nook_tune_excess(&desc.goal, &best) > 0.0);
+        /* in logarithms: within a fifth of what can be reached */
+        assert_true(nook_tune_excess(&desc.goal, &true_cost) < nook_tune_excess(&desc.goal, &best) + 0.3);
+    }
+}
+
+static void test_the_winner_is_timed_in_as_many_views_as_it_is_measured(void **state)
+{
+    (void)state;
+    world w = make_world(0.3);
+    nook_tune_search_desc desc = desc_of(&w, 0.06, 0.0);
+    nook_tune_outcome found = must_search(&w, &desc);
+    assert_true(found.estimate.views >= desc.views_few && found.estimate.views <= desc.views_max);
+    for (uint32_t i = 0; i < found.estimate.views; i++)
+        assert_true(isfinite(found.best.views[i].ms));
+    double relative = 2.0 * sqrt(2.0) * found.estimate.error_standard / found.estimate.cost.error;
+    assert_true(relative < 1.3 * desc.part || found.estimate.views == desc.views_max);
+}
+
+static void test_numbers_of_views_follow_the_period_of_the_cameras(void **state)
+{
+    (void)state;
+    world w = make_world(0.3);
+    nook_tune_search_desc desc = desc_of(&w, 0.06, 0.0);
+    desc.period = 5;
+    desc.views_few = 10;
+    desc.views_max = 40;
+    assert_int_equal(must_search(&w, &desc).estimate.views % 5, 0);
+    desc.part = 0.0;
+    assert_int_equal(must_search(&w, &desc).estimate.views, 40);
+}
+
+static void test_a_few_tries_are_kept_to(void **state)
+{
+    (void)state;
+    for (uint32_t tries = 1; tries < 20; tries += 3) {
+        world w = make_world(0.1);
+        nook_tune_search_desc desc = desc_of(&w, 0.06, 0.0);
+        desc.tries_max = tries;
+        nook_tune_outcome found = must_search(&w, &desc);
+        assert_true(found.tried <= tries);
+        assert_true(found.estimate.views >= desc.views_few);
+    }
+}
+
+static void test_a_measurement_that_fails_ends_the_search(void **state)
+{
+    (void)state;
+    for (uint32_t at = 0; at < 200; at += 17) {
+        world w = make_world(0.1);
+        nook_tune_search_desc desc = desc_of(&w, 0.06, 0.0);
+        nook_tune_outcome outcome, before;
+        nook_log_capture log;
+        memset(&outcome, 7, sizeof outcome);
+        before = outcome;
+        w.failing_at = at;
+        nook_log_capture_begin(&log);
+        nook_result result = nook_tune_search(&desc, &outcome);
+        nook_log_capture_end();
+        if (w.measured <= at) /* it needed fewer */
+            continue;
+        assert_int_equal(result, NOOK_E_DEVICE);
+        assert_int_equal(log.count, 1);
+        assert_memory_equal(&outcome, &before, sizeof outcome);
+    }
+}
+
+static void test_a_space_of_one_technique_is_enough(void **state)
+{
+    (void)state;
+    world all = make_world(0.1);
+    for (uint32_t t = 0; t < all.space.technique_count; t++) {
+        world w = { .unevenness = 0.1, .failing_at = UINT32_MAX, .laws[0] = all.laws[t] };
+        nook_tune_space_add(&w.space, all.space.techniques[t].technique);
+        check_against_all(&w, all.laws[t].bias + 0.04, 0.0, 1.5);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_the_cheapest_setting_is_found_where_views_are_alike),
+        cmocka_unit_test(test_the_most_accurate_setting_is_found_where_views_are_alike),
+        cmocka_unit_test(test_views_that_differ_cost_little),
+        cmocka_unit_test(test_with_two_limits_the_error_decides_among_what_is_within_both),
+        cmocka_unit_test(test_when_nothing_fits_the_nearest_is_told),
+        cmocka_unit_test(test_the_winner_is_timed_in_as_many_views_as_it_is_measured),
+        cmocka_unit_test(test_numbers_of_views_follow_the_period_of_the_cameras),
+        cmocka_unit_test(test_a_few_tries_are_kept_to),
+        cmocka_unit_test(test_a_measurement_that_fails_ends_the_search),
+        cmocka_unit_test(test_a_space_of_one_technique_is_enough),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

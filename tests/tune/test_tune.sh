@@ -1,0 +1,95 @@
+#!/usr/bin/env bash
+# The command `tune` from end to end, on a crate that stands on a floor.
+cd "${NOOK_ROOT:-$PWD}" || exit 1
+source tests/support/shell.sh
+tmp=${NOOK_TEST_TMP:-$(mktemp -d)}
+crate=tests/game/data/crate.gltf
+unset DISPLAY WAYLAND_DISPLAY
+
+nook() { "${NOOK_PROGRAM:-build/release/bin/nook}" "$@"; }
+
+tune() { nook tune "$crate" --backend osmesa --cache "$tmp/cache" --size 64x36 --cameras 6 --tries 24 "$@"; }
+
+# number FILE KEY WHICH: the WHICH-th number of that name in a JSON file.
+number() { grep "\"$2\":" "$1" | sed -n "${3:-1}p" | sed 's/.*: //; s/,.*//'; }
+
+holds() { awk "BEGIN { exit !($1) }"; }
+
+test_a_setting_within_an_error_is_found_proven_and_written() {
+    # whether 6 cameras of 64 x 36 pixels prove it to 15 % is chance: both ends must be told as they are
+    local code=0
+    tune --max-error 0.1 --out "$tmp/found.txt" --json >"$tmp/found.json" 2>"$tmp/said" || code=$?
+    [ "$(number "$tmp/found.json" fits)" = true ]
+    holds "$(number "$tmp/found.json" error 1) <= 0.1 && $(number "$tmp/found.json" error 1) > 0"
+    holds "$(number "$tmp/found.json" ms 1) > 0 && $(number "$tmp/found.json" ms 2) > 0"
+    [ "$(number "$tmp/found.json" cameras 1)" = 6 ] && [ "$(number "$tmp/found.json" cameras 2)" = 6 ]
+    holds "$(number "$tmp/found.json" tried) <= 24 && $(number "$tmp/found.json" tried) < 0.01 * $(number "$tmp/found.json" settings)"
+    local p h d
+    p=$(number "$tmp/found.json" error 1) h=$(number "$tmp/found.json" error 2) d=$(number "$tmp/found.json" difference)
+    holds "($h / $p - 1 - $d) ^ 2 < 1e-12"
+    if holds "$d ^ 2 <= 0.15 ^ 2"; then
+        [ "$code" -eq 0 ] && [ "$(number "$tmp/found.json" holds)" = true ] && [ -s "$tmp/found.txt" ]
+    else
+        [ "$code" -eq 1 ] && [ "$(number "$tmp/found.json" holds)" = false ] && [ ! -e "$tmp/found.txt" ]
+    fi
+}
+
+test_the_file_reproduces_what_was_found() {
+    # a loose budget and many cameras, so that the proof holds
+    tune --max-error 0.5 --tries 6 --cameras 24 --r-max 0.6 --falloff linear --out "$tmp/loose.txt" >"$tmp/loose" 2>/dev/null
+    local file setting
+    file=$(cat "$tmp/loose.txt")
+    for text in '# date' '# machine' '# budget     error 0.5 at 64 x 36 pixels' '# predicted' '# held back' 'r_max = 0.6' 'falloff = linear'; do
+        assert_holds "$file" "$text"
+    done
+    nook compare "$crate" --settings "$tmp/loose.txt" --backend osmesa --cache "$tmp/cache" --size 64x36 --frames 1 \
+        --reference-rays 16 --no-instability --out "$tmp/compared" --json >"$tmp/compared.json" 2>/dev/null
+    [ "$(number "$tmp/compared.json" r_max)" = 0.6 ]
+    [ -e "$tmp/compared/$(sed -n 's/^technique = //p' "$tmp/loose.txt").png" ]
+    # the last line says it in numbers
+    setting=$(tail -n 1 "$tmp/loose")
+    assert_holds "$setting" "$(sed -n 's/^technique = //p' "$tmp/loose.txt")"
+    [[ $setting =~ error\ 0\.[0-9]+,\ [0-9.]+\ ms\;\ held\ back\ 0\.[0-9]+ ]]
+    [[ $setting =~ [0-9]+\ of\ [0-9]+\ settings\ tried ]]
+}
+
+test_when_nothing_fits_the_nearest_is_told_and_nothing_written() {
+    assert_fails 1 tune --max-error 0.000001 --tries 8 --out "$tmp/none.txt" >"$tmp/said" 2>&1
+    assert_holds "$(tail -n 1 "$tmp/said")" 'nothing within error 1e-06; nearest'
+    [[ $(tail -n 1 "$tmp/said") =~ error\ 0\.[0-9]+,\ [0-9.]+\ ms\;\ 8\ of ]]
+    assert_fails 1 tune --max-error 0.000001 --max-ms 0.001 --tries 4 --techniques ssao --out "$tmp/none.txt" >"$tmp/said" 2>&1
+    assert_holds "$(tail -n 1 "$tmp/said")" 'nothing within error 1e-06 and 0.001 ms; nearest ssao'
+    [ ! -e "$tmp/none.txt" ]
+}
+
+# refused CODE TEXT OPTIONS...: one line with that text, nothing written.
+refused() {
+    local code=$1 text=$2 said
+    shift 2
+    said=$(assert_fails "$code" "$@")
+    assert_holds "$said" "$text"
+    [ "$(wc -l <<<"$said")" -eq 1 ]
+    [ ! -e "$tmp/refused.txt" ]
+}
+
+test_bad_input_is_one_line_before_any_work() {
+    refused 2 'no budget; give --max-error E, --max-ms T or both' tune --out "$tmp/refused.txt"
+    refused 2 '--max-error 0' tune --max-error 0 --out "$tmp/refused.txt"
+    refused 2 '--max-error 2' tune --max-error 2 --out "$tmp/refused.txt"
+    refused 2 '--max-ms -1' tune --max-ms -1 --out "$tmp/refused.txt"
+    refused 2 '--max-ms nan' tune --max-error 0.1 --max-ms nan --out "$tmp/refused.txt"
+    refused 2 '--cameras' tune --max-error 0.1 --cameras 1000 --out "$tmp/refused.txt"
+    refused 2 'did you mean volume?' tune --max-error 0.1 --techniques volum --out "$tmp/refused.txt"
+    refused 2 'the truth itself' tune --max-error 0.1 --techniques reference --out "$tmp/refused.txt"
+    refused 2 'falloff' tune --max-error 0.1 --falloff sudden --out "$tmp/refused.txt"
+    refused 1 'no such file' nook tune "$tmp/missing.glb" --max-error 0.1 --out "$tmp/refused.txt"
+}
+
+test_an_output_that_cannot_be_written_is_refused_before_the_work() {
+    refused 1 'cannot write' tune --max-error 0.1 --out "$tmp/no/such/folder.txt"
+    refused 1 'a directory' tune --max-error 0.1 --out "$tmp"
+    refused 1 '/proc/nook.txt' tune --max-error 0.1 --out /proc/nook.txt
+    [ -z "$(find "$tmp" -name '*.probe*')" ]
+}
+
+run_tests
