@@ -7,6 +7,7 @@ static const nook_extreme_group *const groups[] = {
     &nook_extreme_reach,
     &nook_extreme_surfaces,
     &nook_extreme_buffers,
+    &nook_extreme_sampling,
     &nook_extreme_volumes,
     &nook_extreme_occluders,
     &nook_extreme_filter,

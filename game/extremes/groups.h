@@ -13,3 +13,4 @@ extern const nook_extreme_group nook_extreme_spinning;   /**< A body that turns 
 extern const nook_extreme_group nook_extreme_volumes;    /**< Sizes and shapes of volumes. */
 extern const nook_extreme_group nook_extreme_occluders;  /**< Many at once. */
 extern const nook_extreme_group nook_extreme_filter;     /**< Filter and upscaling alone. */
+extern const nook_extreme_group nook_extreme_sampling;   /**< Rays, steps, samples and thresholds. */

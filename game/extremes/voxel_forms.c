@@ -1,13 +1,13 @@
 #include "game/extremes/voxel_forms.h"
+#include "modules/fixture/closed_form.h"
 #include <math.h>
 
 static const double pi = 3.14159265358979323846;
 
-/* Fixture 15 of docs/techniques.md, four times: a square, its middle overhead at a height. */
+/* Its middle overhead. */
 static double square_overhead(double side, double height)
 {
-    double x = 0.5 * side / height, d = sqrt(1.0 + x * x);
-    return 4.0 * (x / d * atan(x / d)) / pi;
+    return 4.0 * nook_form_level_rectangle(NOOK_FORM_COSINE, 0.5 * side, 0.5 * side, height);
 }
 
 /*
