@@ -115,7 +115,7 @@ int nook_command_extremes(const nook_app *app, int argc, char **argv)
           .kind = NOOK_OPTION_TEXT,
           .target = &settings.only,
           .placeholder = "TEXT",
-          .help = "only groups and cases whose name holds TEXT" },
+          .help = "only the group of that name, or else the groups and cases whose name holds TEXT" },
         { .name = "list",
           .kind = NOOK_OPTION_FLAG,
           .target = &settings.list,

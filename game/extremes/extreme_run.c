@@ -18,8 +18,22 @@ static bool holds_text(const char *text, const char *part)
     return size == 0;
 }
 
+/** A group's whole name means that group, and not what else speaks of "space" or "volumes". */
+static bool names_group(const char *only)
+{
+    size_t count;
+    const nook_extreme_group *const *groups = nook_extreme_groups(&count);
+    for (size_t i = 0; i < count; i++) {
+        if (strcmp(groups[i]->name, only) == 0)
+            return true;
+    }
+    return false;
+}
+
 bool nook_extreme_matches(const nook_extreme_group *group, const nook_extreme *extreme, const char *only)
 {
+    if (only && names_group(only))
+        return strcmp(group->name, only) == 0;
     return !only || holds_text(group->name, only) || holds_text(extreme->name, only);
 }
 

@@ -23,7 +23,10 @@ typedef struct nook_extreme_summary {
     double seconds;
 } nook_extreme_summary;
 
-/** Does the group's or the case's name hold `only`, whatever the case of the letters? NULL matches all. */
+/**
+ * Does the group's or the case's name hold `only`, whatever the case of the letters? The whole name of a group matches its cases
+ * alone; NULL matches all.
+ */
 bool nook_extreme_matches(const nook_extreme_group *group, const nook_extreme *extreme, const char *only);
 /** How many cases match. */
 size_t nook_extreme_count(const char *only);

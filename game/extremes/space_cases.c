@@ -67,35 +67,60 @@ static nook_result run_decimal_scales(const nook_extremes *extremes, nook_extrem
 
 /* ---- Place ---- */
 
-static nook_result run_moved(const nook_extremes *extremes, nook_extreme_found *out_found)
+/** A rigid or mirrored way to carry scene and camera elsewhere. */
+typedef struct space_move {
+    char name[64];
+    nook_matrix matrix;
+} space_move;
+
+/** The scene under each of the moves against the scene where it is. */
+static nook_result compare_moved(const nook_extremes *extremes, const space_move *moves, size_t count,
+                                 nook_extreme_found *found)
 {
-    const double all[] = { 1e7, 1e3, 1e4, 1e5, 1e6 };
-    const size_t count = extremes->quick ? 2 : NOOK_COUNT(all);
-    out_found->bound = UNSEEN;
     nook_edge_pictures usual = { 0 };
     nook_result result = NOOK_OK;
     for (size_t i = 0; result == NOOK_OK && i <= count; i++) { /* the first time where it is */
-        const double offset = i == 0 ? 0.0 : all[i - 1];
-        const nook_matrix move = nook_matrix_translation(offset, -0.7 * offset, 0.3 * offset);
+        const char *name = i == 0 ? "where it is" : moves[i - 1].name;
         nook_edge_scene scene;
         nook_edge_pictures pictures;
-        char where[64];
-        snprintf(where, sizeof where, "%g units off", offset);
         result = nook_edge_scene_make(extremes, &(nook_edge_scene_desc){ 0 }, &scene);
         if (result != NOOK_OK)
             break;
         if (i > 0)
-            nook_edge_scene_move(&scene, &move);
-        result = nook_edge_pictures_take(&scene, out_found, where, i == 0 ? &usual : &pictures);
+            nook_edge_scene_move(&scene, &moves[i - 1].matrix);
+        result = nook_edge_pictures_take(&scene, found, name, i == 0 ? &usual : &pictures);
         nook_edge_scene_free(&scene);
         if (result == NOOK_OK && i > 0) {
-            nook_edge_pictures_compare(&usual, &pictures, nook_edge_rms, out_found, where);
+            nook_edge_pictures_compare(&usual, &pictures, nook_edge_rms, found, name);
             nook_edge_pictures_free(&pictures);
         }
         nook_extreme_progress(extremes, (double)(i + 1) / (double)(count + 1));
     }
     nook_edge_pictures_free(&usual);
     return result;
+}
+
+static nook_result run_moved(const nook_extremes *extremes, nook_extreme_found *out_found)
+{
+    static const double offsets[] = { 1e7, 1e3, 1e4, 1e5, 1e6 };
+    space_move moves[NOOK_COUNT(offsets)];
+    for (size_t i = 0; i < NOOK_COUNT(offsets); i++) {
+        moves[i].matrix = nook_matrix_translation(offsets[i], -0.7 * offsets[i], 0.3 * offsets[i]);
+        snprintf(moves[i].name, sizeof moves[i].name, "%g units off", offsets[i]);
+    }
+    out_found->bound = UNSEEN;
+    return compare_moved(extremes, moves, extremes->quick ? 2 : NOOK_COUNT(offsets), out_found);
+}
+
+static nook_result run_turned(const nook_extremes *extremes, nook_extreme_found *out_found)
+{
+    const double here[3] = { 0, 0, 0 }, far[3] = { 1e7, -3e6, 1e6 }, one[3] = { 1, 1, 1 }, mirrored[3] = { -1, 1, 1 };
+    const double turn[4] = { 0.36, -0.48, 0.64, 0.48 }, still[4] = { 0, 0, 0, 1 };
+    const space_move moves[] = { { "turned and mirrored, 1e7 units off", nook_matrix_compose(far, turn, mirrored) },
+                                 { "mirrored", nook_matrix_compose(here, still, mirrored) },
+                                 { "turned", nook_matrix_compose(here, turn, one) } };
+    out_found->bound = UNSEEN;
+    return compare_moved(extremes, moves, extremes->quick ? 1 : NOOK_COUNT(moves), out_found);
 }
 
 /* ---- The arithmetic alone ---- */
@@ -163,6 +188,10 @@ static const nook_extreme cases[] = {
       .unit = "RMS of visibility",
       .why = "In double a place 1e7 units off is known to 2e-9: a 30th of a float's step at one unit.",
       .run = run_moved },
+    { .name = "a scene turned and mirrored, the camera with it, is the same picture",
+      .unit = "RMS of visibility",
+      .why = "Turned normals are coded anew, half a step of 16 bits: less than half a step of an 8-bit display.",
+      .run = run_turned },
     { .name = "a visible point's voxel by our float arithmetic, up to 1e7 units off",
       .unit = "voxels of 256",
       .why = "Hardware filters voxels with weights of 8 bits. Where: what the obvious formulas lose instead.",

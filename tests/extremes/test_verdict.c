@@ -196,6 +196,18 @@ static void test_only_chooses_by_any_part_of_either_name(void **state)
     assert_int_equal(nook_extreme_count("no case is called so"), 0);
 }
 
+static void test_a_groups_whole_name_chooses_its_cases_alone(void **state)
+{
+    (void)state;
+    size_t count, cases = 0;
+    const nook_extreme_group *const *groups = nook_extreme_groups(&count);
+    for (size_t i = 0; i < count; i++) {
+        assert_int_equal(nook_extreme_count(groups[i]->name), groups[i]->count);
+        cases += groups[i]->count;
+    }
+    assert_int_equal(nook_extreme_count(NULL), cases);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -211,6 +223,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_reports_name_each_verdict, test_gpu_setup, test_gpu_teardown),
         cmocka_unit_test(test_every_case_says_what_holds_in_which_unit_and_why),
         cmocka_unit_test(test_only_chooses_by_any_part_of_either_name),
+        cmocka_unit_test(test_a_groups_whole_name_chooses_its_cases_alone),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
