@@ -2,6 +2,7 @@
 #include "game/extremes/buffer_internal.h"
 #include "game/techniques.h"
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -57,9 +58,9 @@ static size_t pick_plain(const nook_edge_scene *scene, const float *picture, flo
     return count;
 }
 
-/** One technique with and without the host's normals. @param with, without  room for two pictures */
+/** One technique with and without the host's normals. @param with, without  room for two pictures @param whole  with the edges */
 static nook_result compare_plain(nook_edge_scene *scene, const char *technique, float *with, float *without,
-                                 nook_extreme_found *found)
+                                 nook_extreme_found *found, double *whole)
 {
     scene->view->without_normals = false;
     nook_result result = nook_edge_scene_record(scene, technique, found, "normals");
@@ -70,11 +71,11 @@ static nook_result compare_plain(nook_edge_scene *scene, const char *technique, 
     result = nook_edge_scene_record(scene, technique, found, "no normals");
     if (result != NOOK_OK)
         return result;
-    const double whole = nook_edge_rms(with, scene->view->visibility, scene->pixels);
+    *whole = fmax(*whole, nook_edge_rms(with, scene->view->visibility, scene->pixels));
     pick_plain(scene, with, with); /* only ever moves forward */
     const size_t count = pick_plain(scene, scene->view->visibility, without);
-    nook_extreme_worst(found, count ? nook_edge_rms(with, without, count) : NAN,
-                       "%s, %zu of %zu pixels; %.3f with the edges", technique, count, scene->pixels, whole);
+    nook_extreme_worst(found, count ? nook_edge_rms(with, without, count) : NAN, "%s, %zu of %zu pixels", technique,
+                       count, scene->pixels);
     return NOOK_OK;
 }
 
@@ -83,6 +84,7 @@ nook_result nook_buffer_run_no_normals(const nook_extremes *extremes, nook_extre
     size_t count;
     const nook_ao_technique *const *techniques = nook_techniques(&count);
     nook_edge_scene scene;
+    double whole = 0.0;
     out_found->bound = UNSEEN;
     nook_result result = nook_edge_scene_make(extremes, &(nook_edge_scene_desc){ 0 }, &scene);
     if (result != NOOK_OK)
@@ -91,8 +93,10 @@ nook_result nook_buffer_run_no_normals(const nook_extremes *extremes, nook_extre
     if (!pictures)
         result = nook_fail(NOOK_E_MEMORY, "extremes: no room for two pictures");
     for (size_t i = 0; result == NOOK_OK && i < count; i++)
-        result = compare_plain(&scene, techniques[i]->name, pictures, pictures + scene.pixels, out_found);
+        result = compare_plain(&scene, techniques[i]->name, pictures, pictures + scene.pixels, out_found, &whole);
     free(pictures);
+    size_t used = strlen(out_found->where);
+    snprintf(out_found->where + used, sizeof out_found->where - used, "; with the edges up to %.3f", whole);
     nook_edge_scene_free(&scene);
     return result;
 }
