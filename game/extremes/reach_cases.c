@@ -276,8 +276,8 @@ static const nook_extreme cases[] = {
     { .name = "every technique is nearer to the truth than no occlusion, from 4 pixels to the diagonal",
       .unit = "RMSE by RMSE of none",
       .why = "1 is where ambient occlusion does more harm than good.",
-      .limit = "screen space: r_max from 4 pixels to the scene's diagonal. ssao darkens open floors below 3 pixels; "
-               "at 100 diagonals steps are so long that nothing is found.",
+      .limit = "screen space: r_max from 4 pixels to the scene's diagonal; below 3 pixels ssao darkens open floors, "
+               "at 100 diagonals nothing is found.",
       .run = run_better_than_none },
 };
 

@@ -124,8 +124,7 @@ static const nook_extreme cases[] = {
     { .name = "screen space: an open floor seen at 90 to 0.1 degrees is open, at a reach of 16 pixels",
       .unit = "mean A",
       .why = "Of ssao's points 3/2 of 1/32 lie within half a pixel of the floor; half of those round behind it.",
-      .limit =
-          "ssao: an open floor darkens by 3/8 of a pixel over r_max, 0.02 at a reach of 16 pixels. The others do not.",
+      .limit = "ssao: an open floor darkens by 3/8 of a pixel over r_max, 0.02 at a reach of 16 pixels.",
       .run = run_screen_along },
     { .name = "any RG16 normal code reaches techniques turned into view space to half a step",
       .unit = "radians",

@@ -14,6 +14,16 @@ test_list_names_every_case_and_runs_nothing() {
     [[ $(tail -n 1 <<<"$list") =~ ^[0-9]+\ cases$ ]]
 }
 
+test_readme_states_every_limit() {
+    local limit limits missing=0
+    limits=$(extremes --list | sed -n 's/^ *limit: //p')
+    [ -n "$limits" ]
+    while IFS= read -r limit; do
+        grep -qxF -- "- $limit" README.md || { echo "README.md, Limits: add the line \"- $limit\"" && missing=1; }
+    done <<<"$limits"
+    [ $missing -eq 0 ]
+}
+
 test_only_runs_what_matches_and_ends_with_the_summary() {
     local table
     table=$(extremes --quick --only 'm_b^-1 m_a')
