@@ -5,6 +5,7 @@
 #include "game/interrupt.h"
 #include "game/measure/truth_file.h"
 #include "game/stage.h"
+#include "modules/ao_reference/reference.h"
 #include "modules/measure/noise.h"
 #include <inttypes.h>
 #include <math.h>
@@ -34,6 +35,7 @@ static uint64_t make_key(const nook_stage *stage, const nook_truth_desc *desc, u
     const nook_camera *camera = &stage->frame.camera;
     size_t pixels = (size_t)stage->width * stage->height;
     const double numbers[] = { NOOK_TRUTH_VERSION,
+                               NOOK_REFERENCE_VERSION,
                                stage->width,
                                stage->height,
                                get(stage->ao, "ao.r_max"),

@@ -12,7 +12,7 @@
 
 struct nook_stage;
 
-/** Raise it when the reference or the file changes: older files then belong to no key. */
+/** Raise it when the file changes: older files then belong to no key. See also NOOK_REFERENCE_VERSION. */
 #define NOOK_TRUTH_VERSION 1u
 
 typedef struct nook_truth_desc {

@@ -11,6 +11,9 @@
 extern "C" {
 #endif
 
+/** Raise it when a picture of the same rays changes: truths that were kept (game/measure/truth.h) are then traced anew. */
+#define NOOK_REFERENCE_VERSION 1u
+
 extern const nook_ao_technique nook_ao_reference_technique;
 
 #ifdef __cplusplus
