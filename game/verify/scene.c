@@ -91,8 +91,8 @@ void nook_verify_scene_camera(nook_verify_scene *scene, const char *name, const 
 nook_matrix nook_verify_camera_matrix(const nook_verify_camera *camera)
 {
     const double *eye = camera->eye;
-    bool upright = fabs(eye[2]) > fabs(eye[1]); /* looking down: +y is up in the picture */
-    return nook_matrix_look_at(eye, (double[]){ 0, 0, 0 }, (double[]){ 0, upright, !upright });
+    bool from_above = hypot(eye[0], eye[1]) < 1e-3 * fabs(eye[2]);
+    return nook_matrix_look_at(eye, (double[]){ 0, 0, 0 }, (double[]){ 0, from_above, !from_above });
 }
 
 const char *nook_verify_falloff_name(nook_falloff falloff)

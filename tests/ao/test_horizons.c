@@ -3,6 +3,7 @@
  * the cosine, the blocked part of the solid angle (erratum C18). Both only of what the camera sees.
  */
 #include "modules/ao/falloff.h"
+#include "modules/fixture/closed_form.h"
 #include "tests/support/ao_screen.h"
 #include <math.h>
 #include <stdio.h>
@@ -84,9 +85,12 @@ static void test_a_pit_tells_the_cosine_from_the_solid_angle(void **state)
     for (size_t i = 0; i < NOOK_COUNT(depths); i++) {
         const double d = depths[i];
         nook_fixture_view *view = look_into_pit(state, d, 2.5);
-        expect_near("reference", ao_screen_measure_centre(view, "reference"), d * d / (1 + d * d), 0.01);
-        expect_near("gtao", ao_screen_measure_centre(view, "gtao"), d * d / (1 + d * d), 0.015); /* 0.5 for d = 1 */
-        expect_near("hbao", ao_screen_measure_centre(view, "hbao"), d / sqrt(1 + d * d), 0.015); /* 0.7071 */
+        expect_near("reference", ao_screen_measure_centre(view, "reference"), nook_form_pit(NOOK_FORM_COSINE, 1.0, d),
+                    0.01);
+        expect_near("gtao", ao_screen_measure_centre(view, "gtao"), nook_form_pit(NOOK_FORM_COSINE, 1.0, d),
+                    0.015); /* 0.5 for d = 1 */
+        expect_near("hbao", ao_screen_measure_centre(view, "hbao"), nook_form_pit(NOOK_FORM_SOLID_ANGLE, 1.0, d),
+                    0.015); /* 0.7071 */
     }
 }
 
@@ -154,12 +158,13 @@ static void test_corners_of_any_angle_read_as_truth_and_as_solid_angle(void **st
 /* A wall at k = 0.3 r_max; the closed forms of docs/techniques.md, fixture 5. */
 static void test_gtao_follows_the_falloff_in_a_corner(void **state)
 {
-    const double k = 0.3, s = sqrt(1 - k * k);
+    const double k = 0.3;
     nook_fixture_view *view = look_into_corner(state, pi / 2, 1.0);
-    expect_near("hard", ao_screen_measure_centre(view, "gtao"), (acos(k) - k * s) / pi, 0.02);
+    expect_near("hard", ao_screen_measure_centre(view, "gtao"), nook_form_wall(NOOK_FORM_COSINE, NOOK_FALLOFF_HARD, k),
+                0.02);
     ao_view_param(view, "ao.falloff", "linear");
-    expect_near("linear", ao_screen_measure_centre(view, "gtao"), (acos(k) + k * s - 2 * k * log((1 + s) / k)) / pi,
-                0.025);
+    expect_near("linear", ao_screen_measure_centre(view, "gtao"),
+                nook_form_wall(NOOK_FORM_COSINE, NOOK_FALLOFF_LINEAR, k), 0.025);
 }
 
 /* The wall of a pit of radius and depth 1 stands at 1 / cos e at elevation e; the two integrals up to e = 45 degrees, r = 4. */
@@ -182,9 +187,11 @@ static void test_a_trench_that_the_camera_sees_whole(void **state)
     ao_screen_look(view, (double[]){ 0, 0, 6 }, origin, 1.0, 3.0);
     ao_screen_add_trench(&mesh, 1.2, 1.0);
     ao_screen_show(view, &mesh);
-    expect_near("reference", ao_screen_measure_centre(view, "reference"), 1 - 0.6 / sqrt(1.36), 0.015);
-    expect_near("gtao", ao_screen_measure_centre(view, "gtao"), 1 - 0.6 / sqrt(1.36), 0.03);
-    expect_near("hbao", ao_screen_measure_centre(view, "hbao"), 2 * atan(1 / 0.6) / pi, 0.06);
+    expect_near("reference", ao_screen_measure_centre(view, "reference"), nook_form_trench(NOOK_FORM_COSINE, 1.2, 1.0),
+                0.015);
+    expect_near("gtao", ao_screen_measure_centre(view, "gtao"), nook_form_trench(NOOK_FORM_COSINE, 1.2, 1.0), 0.03);
+    expect_near("hbao", ao_screen_measure_centre(view, "hbao"), nook_form_trench(NOOK_FORM_SOLID_ANGLE, 1.2, 1.0),
+                0.06);
 }
 
 /** RMS difference between an image and the view's. */

@@ -1,4 +1,5 @@
 /* The ray-traced reference against closed forms (docs/techniques.md, section Fixtures): within 0.005 at 4096 rays. */
+#include "modules/fixture/closed_form.h"
 #include "tests/support/ao_fixture.h"
 #include <math.h>
 #include <string.h>
@@ -68,10 +69,12 @@ static void test_reference_is_exactly_one_in_a_closed_box(void **state)
 
 static void test_reference_matches_the_inside_of_a_sphere(void **state)
 {
-    static const struct {
+    const struct {
         const char *falloff, *r_max;
         double truth;
-    } cases[] = { { "hard", "1.5", 0.5625 }, { "linear", "1.5", 0.1875 }, { "linear", "4", 1 - 2.0 / (3 * 2.0) } };
+    } cases[] = { { "hard", "1.5", nook_form_sphere_inside(NOOK_FORM_COSINE, NOOK_FALLOFF_HARD, 0, 0.75) },
+                  { "linear", "1.5", nook_form_sphere_inside(NOOK_FORM_COSINE, NOOK_FALLOFF_LINEAR, 0, 0.75) },
+                  { "linear", "4", nook_form_sphere_inside(NOOK_FORM_COSINE, NOOK_FALLOFF_LINEAR, 0, 2.0) } };
     for (size_t i = 0; i < NOOK_COUNT(cases); i++) {
         ao_fixture *fixture = prepare(state, cases[i].falloff, cases[i].r_max);
         nook_fixture_mesh mesh = { 0 };
@@ -83,26 +86,13 @@ static void test_reference_matches_the_inside_of_a_sphere(void **state)
 
 static void test_reference_matches_an_infinite_ceiling_under_every_falloff(void **state)
 {
+    static const char *const names[] = { "hard", "linear", "quadratic", "wendland", "exponential" };
     const double k = 0.4, tau = 3.0; /* height / r_max; the initial falloff_tau */
-    double wendland = 0.0, exponential = 0.0;
-    for (int i = 0; i < 200000; i++) { /* c = cos: distance k / c, A = integral of rho 2 c dc over [k, 1] */
-        double c = k + (1.0 - k) * (i + 0.5) / 200000, q = 1.0 - k / c;
-        wendland += q * q * q * q * (4.0 * k / c + 1.0) * 2.0 * c * (1.0 - k) / 200000;
-        exponential += exp(-tau * k / c) * 2.0 * c * (1.0 - k) / 200000;
-    }
-    const struct {
-        const char *falloff;
-        double truth;
-    } cases[] = { { "hard", 1 - k * k },
-                  { "linear", (1 - k) * (1 - k) },
-                  { "quadratic", 1 - k * k + 2 * k * k * log(k) },
-                  { "wendland", wendland },
-                  { "exponential", exponential } };
-    for (size_t i = 0; i < NOOK_COUNT(cases); i++) {
-        ao_fixture *fixture = prepare(state, cases[i].falloff, "2.5");
+    for (size_t i = 0; i < NOOK_COUNT(names); i++) {
+        ao_fixture *fixture = prepare(state, names[i], "2.5");
         nook_fixture_mesh mesh = { 0 };
         nook_fixture_add_quad(&mesh, (double[]){ -50, -50, 1 }, (double[]){ 100, 0, 0 }, (double[]){ 0, 100, 0 });
-        expect(fixture, &mesh, cases[i].truth);
+        expect(fixture, &mesh, nook_form_ceiling(NOOK_FORM_COSINE, (nook_falloff)i, tau, k));
     }
 }
 
@@ -114,14 +104,14 @@ static void test_reference_matches_a_corner_at_any_distance_and_falloff(void **s
         add_wall(&mesh, x, far_away);
         expect(fixture, &mesh, 0.5);
     }
-    const double k = 0.3, s = sqrt(1 - k * k);
+    const double k = 0.3;
     nook_fixture_mesh mesh = { 0 };
     ao_fixture *fixture = prepare(state, "hard", "1");
     add_wall(&mesh, k, 5);
-    expect(fixture, &mesh, (acos(k) - k * s) / pi);
+    expect(fixture, &mesh, nook_form_wall(NOOK_FORM_COSINE, NOOK_FALLOFF_HARD, k));
     fixture = prepare(state, "linear", "1");
     add_wall(&mesh, k, 5);
-    expect(fixture, &mesh, (acos(k) + k * s - 2 * k * log((1 + s) / k)) / pi);
+    expect(fixture, &mesh, nook_form_wall(NOOK_FORM_COSINE, NOOK_FALLOFF_LINEAR, k));
 }
 
 static void test_reference_matches_a_wall_of_finite_height(void **state)
@@ -129,7 +119,7 @@ static void test_reference_matches_a_wall_of_finite_height(void **state)
     ao_fixture *fixture = prepare(state, "hard", "1e6");
     nook_fixture_mesh mesh = { 0 };
     add_wall(&mesh, 1.0, 1.5);
-    expect(fixture, &mesh, 0.5 * (1 - 1 / sqrt(1 + 1.5 * 1.5)));
+    expect(fixture, &mesh, nook_form_low_wall(NOOK_FORM_COSINE, 1.0, 1.5));
 }
 
 static void test_reference_matches_dihedral_corners(void **state)
@@ -140,7 +130,7 @@ static void test_reference_matches_dihedral_corners(void **state)
         nook_fixture_mesh mesh = { 0 };
         nook_fixture_add_quad(&mesh, (double[]){ 1, -far_away, 0 }, (double[]){ 0, 2 * far_away, 0 },
                               (double[]){ -far_away * cos(angle), 0, far_away * sin(angle) });
-        expect(fixture, &mesh, cos(angle / 2) * cos(angle / 2));
+        expect(fixture, &mesh, nook_form_dihedral(NOOK_FORM_COSINE, angle));
     }
 }
 
@@ -150,7 +140,7 @@ static void test_reference_matches_an_overhang(void **state)
     nook_fixture_mesh mesh = { 0 };
     nook_fixture_add_quad(&mesh, (double[]){ 0.7, -far_away, 1 }, (double[]){ far_away, 0, 0 },
                           (double[]){ 0, 2 * far_away, 0 });
-    expect(fixture, &mesh, 0.5 * (1 - 0.7 / sqrt(0.7 * 0.7 + 1)));
+    expect(fixture, &mesh, nook_form_overhang(NOOK_FORM_COSINE, 0.7, 1.0));
 }
 
 static void test_reference_matches_the_bottom_of_a_trench(void **state)
@@ -159,7 +149,7 @@ static void test_reference_matches_the_bottom_of_a_trench(void **state)
     nook_fixture_mesh mesh = { 0 };
     add_wall(&mesh, -0.6, 1.0);
     add_wall(&mesh, 0.6, 1.0);
-    expect(fixture, &mesh, 1 - 0.6 / sqrt(0.36 + 1));
+    expect(fixture, &mesh, nook_form_trench(NOOK_FORM_COSINE, 1.2, 1.0));
 }
 
 static void test_reference_matches_the_bottom_of_a_round_pit(void **state)
@@ -167,7 +157,7 @@ static void test_reference_matches_the_bottom_of_a_round_pit(void **state)
     ao_fixture *fixture = prepare(state, "hard", "1e6");
     nook_fixture_mesh mesh = { 0 };
     nook_fixture_add_tube(&mesh, 1.0, 0.0, 1.0, ROUND);
-    expect(fixture, &mesh, 0.5);
+    expect(fixture, &mesh, nook_form_pit(NOOK_FORM_COSINE, 1.0, 1.0));
 }
 
 static void test_reference_matches_a_disc_overhead(void **state)
@@ -175,48 +165,31 @@ static void test_reference_matches_a_disc_overhead(void **state)
     ao_fixture *fixture = prepare(state, "hard", "1e6");
     nook_fixture_mesh mesh = { 0 };
     nook_fixture_add_disc(&mesh, (double[]){ 0, 0, 1 }, 0.8, ROUND);
-    expect(fixture, &mesh, 0.64 / 1.64);
-}
-
-/** Fixture 14, for a unit sphere whose centre lies at distance h in a direction of cosine nl. */
-static double sphere_crossing_horizon(double h, double nl)
-{
-    double k2 = 1 - h * h * nl * nl;
-    return ((nl * acos(-nl * sqrt((h * h - 1) / (1 - nl * nl))) - sqrt(k2 * (h * h - 1))) / (h * h) +
-            atan(sqrt(k2 / (h * h - 1)))) /
-           pi;
+    expect(fixture, &mesh, nook_form_disc(NOOK_FORM_COSINE, 0.8, 1.0));
 }
 
 static void test_reference_matches_spheres_above_and_across_the_horizon(void **state)
 {
-    const struct {
-        double centre[3];
-        double truth;
-    } cases[] = { { { 0, 0, 1.5 }, 1 / 2.25 },
-                  { { 1.3, 0, 1 }, 1 / pow(1.3 * 1.3 + 1, 1.5) },
-                  { { 1.5, 0, 0.4 }, sphere_crossing_horizon(sqrt(2.41), 0.4 / sqrt(2.41)) },
-                  { { 1.5, 0, -0.3 }, sphere_crossing_horizon(sqrt(2.34), -0.3 / sqrt(2.34)) } };
-    for (size_t i = 0; i < NOOK_COUNT(cases); i++) {
+    static const double centres[][3] = { { 0, 0, 1.5 }, { 1.3, 0, 1 }, { 1.5, 0, 0.4 }, { 1.5, 0, -0.3 } };
+    for (size_t i = 0; i < NOOK_COUNT(centres); i++) {
         ao_fixture *fixture = prepare(state, "hard", "1e6");
         nook_fixture_mesh mesh = { 0 };
-        nook_fixture_add_sphere(&mesh, cases[i].centre, 1.0, ROUND);
-        expect(fixture, &mesh, cases[i].truth);
+        nook_fixture_add_sphere(&mesh, centres[i], 1.0, ROUND);
+        double distance = hypot(centres[i][0], centres[i][2]);
+        expect(fixture, &mesh, nook_form_sphere(NOOK_FORM_COSINE, 1.0, distance, centres[i][2] / distance));
     }
 }
 
 static void test_reference_matches_parallel_and_perpendicular_rectangles(void **state)
 {
-    const double a = 1.2, b = 0.7, c = 0.9, x = a / c, y = b / c;
-    double parallel =
-        (x / sqrt(1 + x * x) * atan(y / sqrt(1 + x * x)) + y / sqrt(1 + y * y) * atan(x / sqrt(1 + y * y))) / (2 * pi);
-    double perpendicular = (atan(b / c) - c / sqrt(a * a + c * c) * atan(b / sqrt(a * a + c * c))) / (2 * pi);
+    const double a = 1.2, b = 0.7, c = 0.9;
     nook_fixture_mesh mesh = { 0 };
     ao_fixture *fixture = prepare(state, "hard", "1e6");
     nook_fixture_add_quad(&mesh, (double[]){ 0, 0, c }, (double[]){ a, 0, 0 }, (double[]){ 0, b, 0 });
-    expect(fixture, &mesh, parallel);
+    expect(fixture, &mesh, nook_form_level_rectangle(NOOK_FORM_COSINE, a, b, c));
     fixture = prepare(state, "hard", "1e6");
     nook_fixture_add_quad(&mesh, (double[]){ c, 0, 0 }, (double[]){ 0, b, 0 }, (double[]){ 0, 0, a });
-    expect(fixture, &mesh, perpendicular);
+    expect(fixture, &mesh, nook_form_upright_rectangle(NOOK_FORM_COSINE, b, a, c));
 }
 
 static void test_reference_takes_the_union_of_objects(void **state)
@@ -244,7 +217,8 @@ static void test_reference_follows_transforms_of_an_instance(void **state)
     /* Scaled to radius 0.8, mirrored in z, lifted to height 1, the whole world 3000 km away. */
     const double m[16] = { 0.8, 0, 0, 0, 0, 0.8, 0, 0, 0, 0, -2, 0, 3e6, -3e6, 1 + 1e6, 1 }, at[3] = { 3e6, -3e6, 1e6 };
     memcpy(fixture->view->occluders[0].world_from_mesh, m, sizeof m);
-    assert_true(fabs(ao_fixture_measure(fixture, "reference", at, up, 0.05).mean - 0.64 / 1.64) < 0.005);
+    assert_true(fabs(ao_fixture_measure(fixture, "reference", at, up, 0.05).mean -
+                     nook_form_disc(NOOK_FORM_COSINE, 0.8, 1.0)) < 0.005);
 }
 
 int main(void)

@@ -1,4 +1,5 @@
 /* Screen-space techniques on an exact G-buffer: what they get right, and what a depth buffer cannot know. */
+#include "modules/fixture/closed_form.h"
 #include "tests/support/ao_screen.h"
 #include <math.h>
 
@@ -71,7 +72,7 @@ static void test_hsao_weights_by_the_cosine_at_the_bottom_of_a_pit(void **state)
 
 static void test_hsao_is_near_the_truth_in_a_corner_that_the_camera_sees(void **state)
 {
-    const double k = 0.3, truth = (acos(k) - k * sqrt(1 - k * k)) / pi; /* a wall at 0.3 r_max */
+    const double k = 0.3, truth = nook_form_wall(NOOK_FORM_COSINE, NOOK_FALLOFF_HARD, k); /* a wall at 0.3 r_max */
     nook_fixture_view *view = look(state, (double[]){ -2, 0, 3 }, (double[]){ 0, 0, 0 }, 0.6, 1);
     nook_fixture_mesh mesh = { 0 };
     ao_screen_add_corner(&mesh, k, pi / 2);

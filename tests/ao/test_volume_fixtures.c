@@ -1,4 +1,5 @@
 /* The volume technique on closed forms: it must not see its own surface, and must combine objects as it says. */
+#include "modules/fixture/closed_form.h"
 #include "tests/support/ao_fixture.h"
 #include <math.h>
 #include <stdio.h>
@@ -8,7 +9,6 @@
 #include <stddef.h>
 #include <cmocka.h>
 
-static const double pi = 3.14159265358979323846;
 static const double origin[3] = { 0, 0, 0 }, up[3] = { 0, 0, 1 };
 
 static ao_fixture *prepare(void **state, const char *combine, const char *r_max)
@@ -131,7 +131,7 @@ static void add_wall(ao_fixture *fixture, double x)
 /** A wall at k r_max, hard falloff: fixture 5. */
 static double wall_truth(double k)
 {
-    return (acos(k) - k * sqrt(1 - k * k)) / pi;
+    return nook_form_wall(NOOK_FORM_COSINE, NOOK_FALLOFF_HARD, k);
 }
 
 static void expect(ao_fixture *fixture, double truth)
@@ -148,7 +148,7 @@ static void test_volume_union_counts_a_wall_once_and_multiply_squares_it(void **
         ao_fixture *fixture = prepare(state, product ? "multiply" : "union", "20");
         add_wall(fixture, 2);
         add_wall(fixture, 2);
-        expect(fixture, product ? 1 - (1 - one) * (1 - one) : one);
+        expect(fixture, product ? nook_form_product((double[]){ one, one }, 2) : one);
     }
 }
 
@@ -159,13 +159,13 @@ static void test_volume_union_adds_opposite_walls_and_multiply_falls_short(void 
         ao_fixture *fixture = prepare(state, product ? "multiply" : "union", "20");
         add_wall(fixture, 2);
         add_wall(fixture, -2);
-        expect(fixture, product ? 1 - (1 - one) * (1 - one) : 2 * one);
+        expect(fixture, product ? nook_form_product((double[]){ one, one }, 2) : 2 * one);
     }
 }
 
 static void test_volume_combines_the_six_faces_of_a_cube_as_predicted(void **state)
 {
-    const double product = 1 - (1 - 0.23946) * pow(1 - 0.19014, 4);
+    const double product = nook_form_product((double[]){ 0.23946, 0.19014, 0.19014, 0.19014, 0.19014 }, 5);
     for (int multiply = 0; multiply < 2; multiply++) {
         ao_fixture *fixture = prepare(state, multiply ? "multiply" : "union", "1000");
         for (int face = 0; face < 6; face++) {
@@ -194,11 +194,7 @@ static void test_volume_steps_longer_than_a_shell_lose_what_theory_says(void **s
         char text[16];
         snprintf(text, sizeof text, "%d", steps);
         ao_fixture_param(fixture, "volume.steps", text);
-        double dr = r_max / steps, predicted = 0.0, k = height / r_max;
-        for (int i = 0; i < 10000; i++) { /* a ray of cosine c meets a layer 1 / c thick */
-            double c = k + (1 - k) * (i + 0.5) / 10000;
-            predicted += fmin(1.0, voxel / c / dr) * 2 * c * (1 - k) / 10000;
-        }
+        double predicted = nook_form_stepped_ceiling(voxel * steps / r_max, height / r_max);
         double got = ao_fixture_measure(fixture, "volume", origin, up, 0.3).mean;
         if (fabs(got - predicted) >= 0.02)
             fail_msg("%d steps: A = %.4f, predicted %.4f", steps, got, predicted);
