@@ -119,9 +119,11 @@ nook_result nook_edge_scene_draw(nook_edge_scene *scene)
 static nook_result open_view(const nook_extremes *extremes, const nook_edge_scene_desc *desc, nook_edge_scene *scene)
 {
     size_t count;
-    const nook_ao_technique *const *ours = nook_techniques(&count), *techniques[TECHNIQUES_MAX + 1];
+    const nook_ao_technique *const *ours = nook_techniques(&count);
+    const nook_ao_technique *techniques[TECHNIQUES_MAX + 1];
     assert(count <= TECHNIQUES_MAX);
-    memcpy(techniques, ours, count * sizeof *ours);
+    for (size_t i = 0; i < count; i++)
+        techniques[i] = ours[i];
     if (desc->technique)
         techniques[count++] = desc->technique;
     const nook_fixture_view_desc view = { .gpu = extremes->gpu,
