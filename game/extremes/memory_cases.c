@@ -1,4 +1,5 @@
-/* What a bake takes of memory: for its voxels, whatever the number of its triangles. */
+/* What bakes and volumes take of memory: for their voxels, whatever the number of triangles. */
+#include "game/extremes/edge_receiver.h"
 #include "game/extremes/groups.h"
 #include "game/extremes/peak_memory.h"
 #include "modules/bake/cache.h"
@@ -102,6 +103,50 @@ static nook_result run_largest(const nook_extremes *extremes, nook_extreme_found
     return bake_cells(4, extremes->quick ? 200 : NOOK_VOXELIZE_RESOLUTION_MAX, out_found);
 }
 
+/* ---- On the GPU ------------------------------------------------------------------------------------------------- */
+
+/* A body of 1 x 1 x 1 voxels that are `side` long along the axes of `along`, as the only volume. */
+static nook_result upload_alone(nook_edge_receiver *receiver, uint32_t side, int along)
+{
+    double high[3], voxels = 1.0;
+    nook_fixture_mesh mesh = { 0 };
+    nook_fixture_occlusion unused;
+    nook_ao_statistics statistics;
+    for (int axis = 0; axis < 3; axis++) {
+        high[axis] = along >> axis & 1 ? 1.0 : 1.0 / side;
+        voxels *= along >> axis & 1 ? side + 2.0 : 3.0;
+    }
+    nook_fixture_view_drop_occluders(receiver->view);
+    nook_fixture_add_box(&mesh, (double[]){ 0, 0, 0 }, high, 63);
+    nook_result result = nook_fixture_view_add(receiver->view, &mesh, side, NULL, NULL);
+    nook_fixture_mesh_free(&mesh);
+    if (result == NOOK_OK)
+        result = nook_edge_receiver_measure(receiver, &unused, "%u voxels along axes %d", side, along);
+    if (result != NOOK_OK)
+        return result;
+    nook_ao_get_statistics(receiver->view->ao, &statistics);
+    nook_extreme_worst(receiver->found, (double)statistics.volume_bytes / voxels, "%u voxels along axes %d: %llu bytes",
+                       side, along, (unsigned long long)statistics.volume_bytes);
+    return NOOK_OK;
+}
+
+static nook_result run_alone(const nook_extremes *extremes, nook_extreme_found *out_found)
+{
+    static const uint32_t sides[] = { 1, 2, 17, 64, 511, NOOK_VOXELIZE_RESOLUTION_MAX };
+    nook_edge_receiver receiver;
+    out_found->bound = 1.0;
+    nook_result result = nook_edge_receiver_make(extremes, out_found, &receiver);
+    if (result == NOOK_OK)
+        result = nook_edge_receiver_set(&receiver, 2.0, "volume rays=1");
+    for (int k = 0; k < (int)NOOK_COUNT(sides) * 7 && result == NOOK_OK; k++) {
+        int along = 1 + k % 7;
+        if (!extremes->quick || sides[k / 7] <= 64 || (sides[k / 7] == NOOK_VOXELIZE_RESOLUTION_MAX && along < 7))
+            result = upload_alone(&receiver, sides[k / 7], along);
+    }
+    nook_edge_receiver_free(&receiver);
+    return result;
+}
+
 #define WHY "a voxel takes 1 + 2/8 bytes, zstd at level 9 13.2 MB by its own estimate, threads 1 MB; a triangle none"
 
 static const nook_extreme cases[] = {
@@ -113,6 +158,12 @@ static const nook_extreme cases[] = {
       .unit = "bytes",
       .why = WHY,
       .run = run_largest },
+    { .name = "a cube, slab or needle of 1 to 512 voxels takes a byte a voxel on the GPU",
+      .unit = "bytes a voxel",
+      .why = "the texture is as large as the volume with its border of one voxel: exactly 1",
+      .limit = "All volumes lie in one 3D texture: three needles of 512 voxels along x, y and z take the 137 MB of the "
+               "box around them.",
+      .run = run_alone },
 };
 
 const nook_extreme_group nook_extreme_memory = { "memory", cases, NOOK_COUNT(cases) };
