@@ -8,8 +8,8 @@
 #include <string.h>
 
 enum { MOST = 4096, MOST_QUICK = 256, PIXELS = NOOK_EDGE_PIXELS * NOOK_EDGE_PIXELS };
-static const char *const unions[] = { "volume rays=16", "volume rays=16 stepping=fixed", "volume rays=16 guard=slab" };
-static const char *const product = "volume rays=16 combine=multiply";
+static const char *const unions[] = { "volume rays=4", "volume rays=10 stepping=fixed", "volume rays=4 guard=slab" };
+static const char *const product = "volume rays=4 combine=multiply";
 static const char *const falloffs[] = { "hard", "wendland" };
 
 static uint32_t most(const nook_extremes *extremes)

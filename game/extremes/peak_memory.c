@@ -2,6 +2,13 @@
 #include <stdio.h>
 #include <string.h>
 
+/* AddressSanitizer keeps a byte about every eight that are touched; nobody asked for them. */
+#if defined(__SANITIZE_ADDRESS__)
+enum { OURS = 8, KEPT = 9 };
+#else
+enum { OURS = 1, KEPT = 1 };
+#endif
+
 /* A line of /proc/self/status, bytes; 0 when there is none. */
 static uint64_t read_status(const char *name)
 {
@@ -31,5 +38,5 @@ nook_peak_memory nook_peak_memory_begin(void)
 uint64_t nook_peak_memory_growth(const nook_peak_memory *begun)
 {
     uint64_t peak = read_status("VmHWM:");
-    return peak > begun->before ? peak - begun->before : 0;
+    return peak > begun->before ? (peak - begun->before) / KEPT * OURS : 0;
 }
