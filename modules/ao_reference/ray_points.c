@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-static const float full_turn = 6.283185307179586f;
+static const float full_turn = 6.283185307179586f, steps = 8388608.0f; /* 2^23 to the unit interval */
 
 /** The bits of both coordinates by turns, highest first (Morton 1966). */
 static uint32_t place_of(const float point[2])
@@ -26,28 +26,21 @@ void ray_points_fill(ray_point *points, uint32_t count)
         float point[2];
         nook_sobol_point(i, 0, point);
         float angle = full_turn * point[1];
-        points[i] = (ray_point){ point[0], cosf(angle), sinf(angle), place_of(point) };
+        points[i] = (ray_point){ (uint32_t)(point[0] * steps), cosf(angle), sinf(angle), place_of(point) };
     }
     qsort(points, count, sizeof *points, compare_places);
-}
-
-/** [0, 1). */
-static float unit_interval(uint32_t bits)
-{
-    return (float)(bits >> 8) / 16777216.0f;
 }
 
 ray_shift ray_shift_of_pixel(uint32_t x, uint32_t y, uint32_t seed)
 {
     uint32_t hash = nook_mix_bits(x + nook_mix_bits(y + nook_mix_bits(seed)));
-    float angle = full_turn * unit_interval(nook_mix_bits(hash));
-    return (ray_shift){ unit_interval(hash), cosf(angle), sinf(angle) };
+    float angle = full_turn * (float)(nook_mix_bits(hash) >> 9) / steps;
+    return (ray_shift){ hash >> 9, cosf(angle), sinf(angle) };
 }
 
 void ray_point_direction(const ray_point *point, const ray_shift *shift, float out[3])
 {
-    float square = point->square + shift->square;
-    square -= square >= 1.0f ? 1.0f : 0.0f;
+    float square = ((float)(point->square ^ shift->square) + 0.5f) / steps; /* never 0, never 1 */
     float radius = sqrtf(square);
     out[0] = radius * (point->cosine * shift->cosine - point->sine * shift->sine);
     out[1] = radius * (point->sine * shift->cosine + point->cosine * shift->sine);

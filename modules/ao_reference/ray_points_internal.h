@@ -4,15 +4,18 @@
 
 /** A point of the unit square, ready to become a direction. */
 typedef struct ray_point {
-    float square;       /**< Of the distance from the axis on the unit disc. */
+    uint32_t square;    /**< Of the distance from the axis on the unit disc, in 2^-23. */
     float cosine, sine; /**< Of the angle around the axis. */
     uint32_t place;     /**< Along a curve through the square on which neighbours are close to each other. */
 } ray_point;
 
-/** A shift of all points by as much, around the edges of the square. */
+/**
+ * A digital shift of the squares and a turn of all angles. Either keeps the points as well spread as they are, while a sum modulo 1
+ * tears the spread apart where it wraps: at 256 rays that costs 7 to 10 % more noise.
+ */
 typedef struct ray_shift {
-    float square;
-    float cosine, sine; /**< Of the angle they turn by. */
+    uint32_t square;    /**< 23 bits, to be combined by exclusive or. */
+    float cosine, sine; /**< Of the angle all turn by. */
 } ray_shift;
 
 /** The first points of the (0,2)-sequence, by their place: so that rays which are traced together lie close together. */
