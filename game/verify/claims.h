@@ -15,13 +15,13 @@ typedef enum nook_verify_target {
 
 typedef struct nook_verify_claim {
     const char *technique;
-    nook_verify_target target;
-    double tolerance;
-    double plane;         /**< The most that an open plane may read. */
-    bool reads_picture;   /**< Knows the depth buffer only: measured with cameras. */
-    bool horizons;        /**< Holds where the geometry is a height field over the receiver. */
     const char *settings; /**< As in a settings file: what the claim is made for, and little noise. */
     const char *says;     /**< One line. */
+    double tolerance;
+    double plane; /**< The most that an open plane may read. */
+    nook_verify_target target;
+    bool reads_picture; /**< Knows the depth buffer only: measured with cameras. */
+    bool horizons;      /**< Holds where the geometry is a height field over the receiver. */
 } nook_verify_claim;
 
 /** A fixture on which a technique claims something else. */

@@ -45,7 +45,7 @@ static void direction_of(nook_form_weight weight, uint32_t index, double out[3])
 {
     float u[2];
     nook_sobol_point(index, 0, u);
-    double z = weight == NOOK_FORM_COSINE ? sqrt(u[0]) : u[0], flat = sqrt(1.0 - z * z), turn = 2.0 * PI * u[1];
+    double z = weight == NOOK_FORM_COSINE ? sqrt((double)u[0]) : u[0], flat = sqrt(1.0 - z * z), turn = 2.0 * PI * u[1];
     out[0] = flat * cos(turn), out[1] = flat * sin(turn), out[2] = z;
 }
 

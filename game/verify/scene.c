@@ -6,7 +6,7 @@
 
 static const nook_verify_fixture fixtures[] = {
 #define NOOK_VERIFY_FIXTURE(row, name, points, picture_points, quick_points, what) \
-    { row, #name, what, points, picture_points, quick_points, nook_verify_make_##name },
+    { #name, what, nook_verify_make_##name, row, points, picture_points, quick_points },
 #include "game/verify/fixtures.def"
 #undef NOOK_VERIFY_FIXTURE
 };

@@ -42,14 +42,14 @@ typedef struct nook_verify_scene {
 
 /** One row of docs/techniques.md, section Fixtures. */
 typedef struct nook_verify_fixture {
+    const char *name; /**< [a-z_]+, for the command line. */
+    const char *what; /**< One line for the table. */
+    /** Fills a scene whose ground is a floor, r_max 1, falloff hard, no cameras. @param point  below `points` */
+    void (*make)(uint32_t point, double extent, nook_verify_scene *scene);
     int row;
-    const char *name;        /**< [a-z_]+, for the command line. */
-    const char *what;        /**< One line for the table. */
     uint32_t points;         /**< Of its parameters. */
     uint32_t picture_points; /**< The first so many are seen by cameras; ... */
     uint32_t quick_points;   /**< ... go into a quick run. */
-    /** Fills a scene whose ground is a floor, r_max 1, falloff hard, no cameras. @param point  below `points` */
-    void (*make)(uint32_t point, double extent, nook_verify_scene *scene);
 } nook_verify_fixture;
 
 /** Rows 1 to 17 that are geometry, in their order. */
