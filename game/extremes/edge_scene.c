@@ -35,10 +35,15 @@ static void build_body(int body, nook_fixture_mesh *mesh)
     }
 }
 
-static void scale_vertices(nook_fixture_mesh *mesh, double scale)
+/** Where each body's own origin is. No power of two: matrices must hold more than floats can. */
+static const double places[NOOK_EDGE_BODIES][3] = {
+    { 0.1, -0.3, 0.0 }, { 0.0, 1.6, 0.8 }, { -0.4, 0.1, 0.4 }, { 1.1, -0.5, 0.5 }
+};
+
+static void shift_and_scale(nook_fixture_mesh *mesh, const double by[3], double scale)
 {
     for (size_t i = 0; i < (size_t)mesh->vertex_count * 3; i++)
-        mesh->positions[i] = (float)(mesh->positions[i] * scale);
+        mesh->positions[i] = (float)(mesh->positions[i] * scale + by[i % 3]);
 }
 
 static void append(nook_fixture_mesh *mesh, const nook_fixture_mesh *part)
@@ -51,24 +56,35 @@ static void append(nook_fixture_mesh *mesh, const nook_fixture_mesh *part)
     }
 }
 
+/** One body: about its own origin, its matrix takes it to its place. */
+static nook_result add_body(nook_edge_scene *scene, const nook_edge_scene_desc *desc, int body)
+{
+    const double vertex_scale = or_usual(desc->vertex_scale, 1.0), matrix_scale = or_usual(desc->matrix_scale, 1.0);
+    const double still[4] = { 0, 0, 0, 1 }, scale[3] = { matrix_scale, matrix_scale, matrix_scale };
+    nook_fixture_mesh mesh = { 0 };
+    double back[3], place[3], voxel_size;
+    for (int axis = 0; axis < 3; axis++) {
+        back[axis] = -places[body][axis] * vertex_scale;
+        place[axis] = places[body][axis] * scene->scale;
+    }
+    const nook_matrix world_from_mesh = nook_matrix_compose(place, still, scale);
+    build_body(body, &mesh);
+    shift_and_scale(&mesh, back, vertex_scale);
+    nook_result result = nook_fixture_view_add(
+        scene->view, &mesh, desc->resolution ? desc->resolution : RESOLUTION_USUAL, &world_from_mesh, &voxel_size);
+    shift_and_scale(&mesh, place, matrix_scale);
+    append(&scene->world, &mesh);
+    nook_fixture_mesh_free(&mesh);
+    if (result == NOOK_OK)
+        scene->voxel_size = fmax(scene->voxel_size, voxel_size * matrix_scale);
+    return result;
+}
+
 static nook_result add_bodies(nook_edge_scene *scene, const nook_edge_scene_desc *desc)
 {
-    const uint32_t resolution = desc->resolution ? desc->resolution : RESOLUTION_USUAL;
-    const double scale = or_usual(desc->matrix_scale, 1.0);
-    const nook_matrix world_from_mesh = nook_matrix_scale(scale, scale, scale);
     nook_result result = NOOK_OK;
-    for (int body = 0; body < NOOK_EDGE_BODIES && result == NOOK_OK; body++) {
-        nook_fixture_mesh mesh = { 0 };
-        double voxel_size;
-        build_body(body, &mesh);
-        scale_vertices(&mesh, or_usual(desc->vertex_scale, 1.0));
-        result = nook_fixture_view_add(scene->view, &mesh, resolution, &world_from_mesh, &voxel_size);
-        scale_vertices(&mesh, scale);
-        append(&scene->world, &mesh);
-        nook_fixture_mesh_free(&mesh);
-        if (result == NOOK_OK)
-            scene->voxel_size = fmax(scene->voxel_size, voxel_size * scale);
-    }
+    for (int body = 0; body < NOOK_EDGE_BODIES && result == NOOK_OK; body++)
+        result = add_body(scene, desc, body);
     return result;
 }
 

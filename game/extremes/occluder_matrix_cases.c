@@ -191,8 +191,8 @@ static nook_result compare_all(const nook_extremes *extremes, nook_edge_scene *s
     for (size_t i = 0; result == NOOK_OK && i < NOOK_COUNT(odd); i++)
         result = compare_with(scene, &without, combine, odd[i].m, odd[i].what, found);
     for (size_t i = 0; result == NOOK_OK && i < NOOK_COUNT(sizes); i++) {
-        const double s = sizes[i]; /* around the scene: no face of a vast box passes through the picture */
-        const nook_matrix matrix = { { s, 0, 0, 0, 0, -s, 0, 0, 0, 0, s, 0, 0.4 * s, 0.1 * s, -0.4 * s, 1 } };
+        const double s = sizes[i]; /* about the middle of the scene: no face of a vast box passes through the picture */
+        const nook_matrix matrix = nook_matrix_scale(s, -s, s);
         char where[32];
         snprintf(where, sizeof where, "scale %g", s);
         result = compare_with(scene, &without, combine, matrix.m, where, found);

@@ -105,7 +105,8 @@ static nook_result run_moved(const nook_extremes *extremes, nook_extreme_found *
     static const double offsets[] = { 1e7, 1e3, 1e4, 1e5, 1e6 };
     space_move moves[NOOK_COUNT(offsets)];
     for (size_t i = 0; i < NOOK_COUNT(offsets); i++) {
-        moves[i].matrix = nook_matrix_translation(offsets[i], -0.7 * offsets[i], 0.3 * offsets[i]);
+        const double offset = offsets[i] + 0.123; /* which no float holds */
+        moves[i].matrix = nook_matrix_translation(offset, -0.7 * offset, 0.3 * offset);
         snprintf(moves[i].name, sizeof moves[i].name, "%g units off", offsets[i]);
     }
     out_found->bound = UNSEEN;
