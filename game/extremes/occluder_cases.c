@@ -51,8 +51,8 @@ static nook_result pile_up(nook_edge_receiver *receiver, uint32_t count, bool sc
         nook_matrix place = nook_matrix_identity();
         if (scattered) {
             double x = nook_random_between(&random, -1.5, 1.5), y = nook_random_between(&random, -1.5, 1.5);
-            nook_matrix move = nook_matrix_translation(x, y, nook_random_between(&random, 0.0, 1.0));
-            nook_matrix shrink = nook_matrix_scale(0.3, 0.3, 0.3);
+            nook_matrix move = nook_matrix_translation(x, y, nook_random_between(&random, 0.5, 1.5));
+            nook_matrix shrink = nook_matrix_scale(0.1, 0.1, 0.1);
             place = nook_matrix_multiply(&move, &shrink);
         }
         if (i >= receiver->view->occluder_count)
@@ -207,6 +207,8 @@ static nook_result look_at_order(const nook_extremes *extremes, nook_edge_receiv
         result = pile_up(receiver, most(extremes), true);
     if (result == NOOK_OK)
         result = nook_edge_receiver_set(receiver, 2.0, "%s", way);
+    if (result == NOOK_OK) /* smooth: so many hide all of the sky, and only distances are left to differ */
+        result = nook_ao_parse_param(receiver->view->ao, "ao.falloff", "wendland");
     if (result == NOOK_OK)
         result = record(receiver, way);
     keep(receiver, before);
