@@ -12,7 +12,7 @@ extern "C" {
 #endif
 
 /** Raise it when a picture of the same rays changes: truths that were kept (game/measure/truth.h) are then traced anew. */
-#define NOOK_REFERENCE_VERSION 1u
+#define NOOK_REFERENCE_VERSION 2u
 
 extern const nook_ao_technique nook_ao_reference_technique;
 
