@@ -148,7 +148,6 @@ static uint32_t views_wanted(const nook_tune_search_desc *desc, const nook_tune_
 static nook_result confirm(nook_tune_trials *trials)
 {
     const nook_tune_search_desc *desc = trials->desc;
-    uint32_t wanted = 0;
     for (int i = 0; i < CONFIRMATIONS_MAX; i++) {
         nook_tune_trial *best = nook_tune_trials_best(trials, UINT32_MAX);
         nook_result result = nook_tune_trials_extend(trials, best, desc->views_few);
@@ -156,7 +155,7 @@ static nook_result confirm(nook_tune_trials *trials)
             return result;
         if (best != nook_tune_trials_best(trials, UINT32_MAX))
             continue;
-        wanted = wanted ? wanted : views_wanted(desc, best);
+        uint32_t wanted = views_wanted(desc, best); /* more views may show more spread */
         if (best->view_count >= wanted)
             return NOOK_OK;
         result = nook_tune_trials_extend(trials, best, wanted);

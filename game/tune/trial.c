@@ -38,5 +38,5 @@ nook_tune_estimate nook_tune_pool(const nook_tune_view *views, uint32_t count)
 double nook_tune_views_needed(const nook_tune_estimate *estimate, double part)
 {
     double relative = estimate->error_standard / estimate->cost.error;
-    return 8.0 * relative * relative * estimate->views / (part * part); /* 2 sqrt(2 / n) sigma <= part */
+    return 18.0 * relative * relative * estimate->views / (part * part); /* 3 sqrt(2 / n) sigma <= part */
 }

@@ -31,7 +31,7 @@ typedef struct nook_tune_trial {
 nook_tune_estimate nook_tune_pool(const nook_tune_view *views, uint32_t count);
 
 /**
- * So many views of each of two sets make twice the standard error of the difference of their RMSE no more than `part` of it.
+ * So many views of each of two sets make three times the standard error of the difference of their RMSE no more than `part` of it.
  * @param estimate  from a few of them
  */
 double nook_tune_views_needed(const nook_tune_estimate *estimate, double part);

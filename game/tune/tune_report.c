@@ -72,7 +72,7 @@ static void print_found(const nook_tune_result *result, FILE *stream)
     fprintf(stream, "%-10s %11.4f +- %.4f   %11.4f +- %.4f   %+10.1f %% (standard error %.1f %%)\n", "error",
             predicted->cost.error, predicted->error_standard, actual->cost.error, actual->error_standard,
             percent * result->difference, percent * result->difference_standard);
-    fprintf(stream, "%-10s %11.2f %22.2f %21.1f %%\n", "ms", predicted->cost.ms, actual->cost.ms,
+    fprintf(stream, "%-10s %11.2f %22.2f   %+18.1f %%\n", "ms", predicted->cost.ms, actual->cost.ms,
             percent * (actual->cost.ms / predicted->cost.ms - 1.0));
     fprintf(stream, "%-10s %11u %22u\n\n", "cameras", predicted->views, actual->views);
 }
@@ -92,6 +92,12 @@ static void print_doubts(const nook_tune_result *result, const nook_tune_options
     if (options->goal.max_error > 0.0 && result->actual.cost.error > options->goal.max_error)
         fprintf(stream, "On the held-back cameras the error is %.1f %% over the budget.\n",
                 percent * (result->actual.cost.error / options->goal.max_error - 1.0));
+    if (options->goal.max_ms > 0.0 && result->actual.cost.ms > options->goal.max_ms)
+        fprintf(stream, "On the held-back cameras the time is %.1f %% over the budget.\n",
+                percent * (result->actual.cost.ms / options->goal.max_ms - 1.0));
+    if (fabs(log(result->actual.cost.ms / result->outcome.estimate.cost.ms)) > log(1.0 + NOOK_TUNE_TOLERANCE))
+        fprintf(stream, "The times differ by more than %.0f %%: was the machine busy with other things?\n",
+                percent * NOOK_TUNE_TOLERANCE);
     if (result->noise_worst > 0.5 * result->outcome.estimate.cost.error)
         fprintf(stream, "The truth's own noise is up to %.4f and was subtracted; less of it: --reference-rays N\n",
                 result->noise_worst);

@@ -1,13 +1,14 @@
 #include "game/tune/tune_views.h"
 #include "engine/core/log.h"
 #include "game/cameras/sample.h"
+#include "game/compare/camera.h"
 #include "game/measure/site.h"
+#include "game/tune/tune_pairs.h"
 #include "modules/ao/technique.h"
 #include <assert.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 nook_result nook_tune_views_open(nook_stage *stage, const nook_tune_views_desc *desc, nook_tune_views *out)
 {
@@ -20,8 +21,8 @@ nook_result nook_tune_views_open(nook_stage *stage, const nook_tune_views_desc *
         *out = (nook_tune_views){ 0 };
         return result;
     }
-    for (uint32_t set = 0; set < NOOK_TUNE_SETS; set++)
-        memcpy(out->cameras[set], cameras + set * desc->views_max, desc->views_max * sizeof *cameras);
+    nook_tune_pair_views(cameras, NOOK_TUNE_SETS * desc->views_max, nook_scene_diagonal(stage->scene),
+                         out->cameras[NOOK_TUNE_CHOOSE], out->cameras[NOOK_TUNE_PROVE]);
     return NOOK_OK;
 }
 

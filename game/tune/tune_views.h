@@ -28,7 +28,7 @@ typedef struct nook_tune_views {
 } nook_tune_views;
 
 /**
- * Chooses the cameras: both sets are runs of game/cameras/sample.h's sequence, which are spread over the scene alike.
+ * Chooses the cameras: views of game/cameras/sample.h, split so that both sets see the scene alike (tune_pairs.h).
  * @param stage  filled with the default resolution; outlives the views
  * @return as nook_cameras_sample; *out is zero then
  */

@@ -286,7 +286,7 @@ static void test_the_winner_is_timed_in_as_many_views_as_it_is_measured(void **s
     assert_true(found.estimate.views >= desc.views_few && found.estimate.views <= desc.views_max);
     for (uint32_t i = 0; i < found.estimate.views; i++)
         assert_true(isfinite(found.best.views[i].ms));
-    double relative = 2.0 * sqrt(2.0) * found.estimate.error_standard / found.estimate.cost.error;
+    double relative = 3.0 * sqrt(2.0) * found.estimate.error_standard / found.estimate.cost.error;
     assert_true(relative < 1.3 * desc.part || found.estimate.views == desc.views_max);
 }
 

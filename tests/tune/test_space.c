@@ -172,9 +172,9 @@ static void test_the_standard_error_is_what_it_says(void **state)
 static void test_the_number_of_views_follows_from_their_spread(void **state)
 {
     (void)state;
-    /* 8 views give 5 % standard error, so one view 14 %; two sets of n: 2 sqrt(2 / n) 14 % = 15 % */
+    /* 8 views give 5 % standard error, so one view 14 %; two sets of n: 3 sqrt(2 / n) 14 % = 15 % */
     const nook_tune_estimate estimate = { { 0.1, 1.0 }, 0.005, 8 };
-    assert_true(fabs(nook_tune_views_needed(&estimate, 0.15) - 8.0 * 8.0 * 0.0025 / 0.0225) < 1e-9);
+    assert_true(fabs(nook_tune_views_needed(&estimate, 0.15) - 18.0 * 8.0 * 0.0025 / 0.0225) < 1e-9);
 }
 
 int main(void)
