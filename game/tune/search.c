@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SURVIVORS = 3, CONFIRMATIONS_MAX = 8, AGAIN_MAX = 3 };
+enum { SURVIVORS = 3, CONFIRMATIONS_MAX = 24, AGAIN_MAX = 3 };
 /* A technique whose best anchor is by this factor further from the budget than another's, or worse within it, is left alone. */
 static const double hopeless_factor = 1.8;
 
@@ -144,18 +144,47 @@ static uint32_t views_wanted(const nook_tune_search_desc *desc, const nook_tune_
     return views < desc->views_max ? views : desc->views_max;
 }
 
-/* Measures what looks best in many views, until what looks best has been. */
+/* The number of views that any trial was measured in, at most. */
+static uint32_t most_views(const nook_tune_trials *trials)
+{
+    uint32_t most = 0;
+    for (uint32_t i = 0; i < trials->count; i++)
+        most = trials->items[i].view_count > most ? trials->items[i].view_count : most;
+    return most;
+}
+
+/* The best, when what was not measured in as many views as others is taken to do worse than it seems by that factor. */
+static nook_tune_trial *best_with_doubt(const nook_tune_trials *trials, double doubt)
+{
+    nook_tune_trial *best = NULL;
+    nook_tune_cost best_cost = { 0 };
+    uint32_t most = most_views(trials);
+    for (uint32_t i = 0; i < trials->count; i++) {
+        nook_tune_trial *trial = &trials->items[i];
+        nook_tune_cost cost = nook_tune_trials_cost(trials, trial);
+        double factor = trial->view_count < most ? doubt : 1.0;
+        cost = (nook_tune_cost){ cost.error * factor, cost.ms * factor };
+        if (best && !nook_tune_better(&trials->desc->goal, &cost, &best_cost))
+            continue;
+        best = trial;
+        best_cost = cost;
+    }
+    return best;
+}
+
+/* Measures what looks best in many views, until what looks best has been. Each time that it was not, the others are doubted more. */
 static nook_result confirm(nook_tune_trials *trials)
 {
     const nook_tune_search_desc *desc = trials->desc;
     for (int i = 0; i < CONFIRMATIONS_MAX; i++) {
-        nook_tune_trial *best = nook_tune_trials_best(trials, UINT32_MAX);
+        nook_tune_trial *best = best_with_doubt(trials, 1.0 + 0.01 * i);
         nook_result result = nook_tune_trials_extend(trials, best, desc->views_few);
         if (result != NOOK_OK)
             return result;
-        if (best != nook_tune_trials_best(trials, UINT32_MAX))
+        if (best != best_with_doubt(trials, 1.0 + 0.01 * i))
             continue;
-        uint32_t wanted = views_wanted(desc, best); /* more views may show more spread */
+        uint32_t wanted = views_wanted(desc, best), most = most_views(trials); /* more views may show more spread */
+        wanted = wanted > most ? wanted : most;
         if (best->view_count >= wanted)
             return NOOK_OK;
         result = nook_tune_trials_extend(trials, best, wanted);
@@ -170,9 +199,7 @@ static const nook_tune_trial *winner(const nook_tune_trials *trials)
 {
     const nook_tune_trial *best = NULL;
     nook_tune_cost best_cost = { 0 };
-    uint32_t most = 0;
-    for (uint32_t i = 0; i < trials->count; i++)
-        most = trials->items[i].view_count > most ? trials->items[i].view_count : most;
+    uint32_t most = most_views(trials);
     for (uint32_t i = 0; i < trials->count; i++) {
         const nook_tune_trial *trial = &trials->items[i];
         nook_tune_cost cost = nook_tune_pool(trial->views, trial->view_count).cost;

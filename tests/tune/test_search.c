@@ -28,6 +28,7 @@ typedef struct world {
     nook_tune_space space;
     law laws[NOOK_TUNE_TECHNIQUES_MAX];
     double unevenness; /* of views */
+    double chance;     /* of a setting in a view: as large as this, either way */
     uint32_t measured, failing_at;
     uint32_t tells;
 } world;
@@ -73,13 +74,26 @@ static uint32_t technique_of(const world *w, const nook_setting *setting)
     return i;
 }
 
+/* In [-1, 1], another for every setting and view. */
+static double chance_of(const nook_setting *setting, uint32_t view)
+{
+    char text[NOOK_SETTING_TEXT_MAX];
+    uint32_t hash = 2166136261u ^ view * 2654435761u;
+    for (const char *at = nook_setting_print(setting, text); *at; at++)
+        hash = (hash ^ (uint32_t)(unsigned char)*at) * 16777619u;
+    hash ^= hash >> 15;
+    hash *= 2246822519u;
+    return (hash >> 8) / 8388608.0 - 1.0;
+}
+
 static nook_result measure(void *user, const nook_setting *setting, uint32_t view, bool timed, nook_tune_view *out)
 {
     world *w = user;
     nook_tune_cost cost = cost_of(w, technique_of(w, setting), setting);
     if (w->measured++ == w->failing_at)
         return nook_fail(NOOK_E_DEVICE, "the device is gone");
-    double lighter = 1.0 + w->unevenness * sin(2.0 * view), faster = 1.0 + 0.5 * w->unevenness * cos(5.0 * view);
+    double lighter = 1.0 + w->unevenness * sin(2.0 * view) + w->chance * chance_of(setting, view),
+           faster = 1.0 + 0.5 * w->unevenness * cos(5.0 * view);
     *out = (nook_tune_view){ pow(cost.error * lighter, 2.0), 1000.0, timed ? cost.ms * faster : NAN };
     return NOOK_OK;
 }
@@ -253,6 +267,25 @@ static void test_views_that_differ_cost_little(void **state)
     }
 }
 
+static void test_chance_does_not_keep_it_from_what_fits(void **state)
+{
+    (void)state;
+    static const double chances[] = { 0.1, 0.25, 0.4 };
+    for (size_t i = 0; i < NOOK_COUNT(chances); i++) {
+        world w = make_world(0.3);
+        w.chance = chances[i];
+        nook_tune_search_desc desc = desc_of(&w, 0.06, 0.0);
+        nook_tune_outcome found = must_search(&w, &desc);
+        nook_tune_cost best = best_of_all(UINT32_MAX, &desc.goal);
+        nook_tune_cost true_cost = cost_of(&w, found.best.point.technique, &found.best.setting);
+        print_message("chance %g: %.4f at %.2f ms, best %.2f ms, %u views\n", chances[i], true_cost.error, true_cost.ms,
+                      best.ms, found.estimate.views);
+        assert_true(found.fits);
+        assert_true(true_cost.ms < 2.0 * best.ms);
+        assert_true(fabs(found.estimate.cost.error / true_cost.error - 1.0) < 0.15);
+    }
+}
+
 static void test_with_two_limits_the_error_decides_among_what_is_within_both(void **state)
 {
     (void)state;
@@ -355,6 +388,7 @@ int main(void)
         cmocka_unit_test(test_the_cheapest_setting_is_found_where_views_are_alike),
         cmocka_unit_test(test_the_most_accurate_setting_is_found_where_views_are_alike),
         cmocka_unit_test(test_views_that_differ_cost_little),
+        cmocka_unit_test(test_chance_does_not_keep_it_from_what_fits),
         cmocka_unit_test(test_with_two_limits_the_error_decides_among_what_is_within_both),
         cmocka_unit_test(test_when_nothing_fits_the_nearest_is_told),
         cmocka_unit_test(test_the_winner_is_timed_in_as_many_views_as_it_is_measured),
