@@ -137,8 +137,10 @@ nook_ao_texture nook_ao_visibility(const nook_ao *ao);
 
 /** What the last record counted. */
 typedef struct nook_ao_statistics {
-    double
-        fetches_per_pixel; /**< Texture fetches of the trace per full-size pixel with geometry; needs ao.count = 1, else 0. */
+    /** Texture fetches of the whole record (prepare, trace, filter, upscaling; depth, normals, directions, volumes, visibility), also
+        those for pixels without geometry, per full-size pixel with geometry. One of a volume with trilinear filtering counts as
+        one like any other; loads of images and buffers count nothing. Needs ao.count = 1, else 0; 0 for the reference. */
+    double fetches_per_pixel;
     uint32_t occluders;    /**< Marched this frame. */
     uint64_t volume_bytes; /**< On the GPU. */
     uint64_t

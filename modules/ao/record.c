@@ -8,6 +8,8 @@
 
 _Static_assert(offsetof(frame_block, view_from_world) == 96, "std140 places view_from_world at 96");
 
+enum { BINDING_COUNTER = 7 };
+
 static const double RIGID_TOLERANCE = 1e-5; /* what a product of a few matrices in float leaves */
 
 static nook_texture host_texture(nook_ao_texture texture)
@@ -81,7 +83,7 @@ static void set_projection(const double p[16], frame_block *block)
     block->depth_to_distance[1] = (float)(p[10] + (double)block->depth_background);
 }
 
-static frame_block make_block(const nook_ao *ao, const nook_ao_frame *frame, uint32_t scale)
+static frame_block make_block(const nook_ao *ao, const nook_ao_frame *frame, uint32_t scale, int counting)
 {
     const ao_shared *shared = &ao->shared;
     frame_block block = {
@@ -92,7 +94,7 @@ static frame_block make_block(const nook_ao *ao, const nook_ao_frame *frame, uin
         .falloff = shared->falloff,
         .falloff_tau = shared->falloff_tau,
         .seed = frame->index,
-        .counting = shared->count,
+        .counting = counting,
         .filter_radius = shared->filter_radius,
         .filter_depth = shared->filter_depth,
         .filter_normal = shared->filter_normal,
@@ -107,10 +109,12 @@ static frame_block make_block(const nook_ao *ao, const nook_ao_frame *frame, uin
     return block;
 }
 
-/** Runs a shader of 16 x 8 pixels a group with what is bound. */
+/** Runs one of our own shaders, 16 x 8 pixels a group, with what is bound. */
 static nook_result dispatch_over(nook_ao *ao, const char *path, uint32_t width, uint32_t height)
 {
     nook_program program;
+    nook_bind_uniform(ao->gpu, 0, ao->frame);
+    nook_bind_storage(ao->gpu, BINDING_COUNTER, ao->counter);
     nook_result result = nook_program_compute(ao->gpu, path, "", &program);
     if (result == NOOK_OK)
         nook_dispatch(ao->gpu, program, nook_groups(width, 16), nook_groups(height, 8), 1);
@@ -119,7 +123,6 @@ static nook_result dispatch_over(nook_ao *ao, const char *path, uint32_t width, 
 
 static nook_result dispatch_prepare(nook_ao *ao, const nook_ao_frame *frame)
 {
-    nook_bind_uniform(ao->gpu, 0, ao->frame);
     nook_bind_texture(ao->gpu, 0, host_texture(frame->depth));
     nook_bind_texture(ao->gpu, 1, host_texture(frame->normal.native ? frame->normal : frame->depth));
     nook_bind_image(ao->gpu, 0, ao->targets.depth, GL_WRITE_ONLY);
@@ -140,7 +143,6 @@ static nook_result dispatch_pick(nook_ao *ao)
 static nook_result dispatch_filter(nook_ao *ao)
 {
     const ao_targets *targets = &ao->targets;
-    nook_bind_uniform(ao->gpu, 0, ao->frame);
     nook_bind_texture(ao->gpu, 0, targets->depth);
     nook_bind_texture(ao->gpu, 1, targets->normal);
     nook_bind_texture(ao->gpu, 2, targets->scale > 1 ? targets->trace_depth : targets->depth);
@@ -156,7 +158,8 @@ static nook_result upload_inputs(nook_ao *ao, const ao_slot *slot, const nook_ao
     nook_result result = volume_atlas_flush(&ao->atlas);
     if (result != NOOK_OK)
         return result;
-    frame_block block = make_block(ao, frame, scale);
+    int counting = ao->shared.count && !slot->technique->exact; /* truth reads nothing of the kind */
+    frame_block block = make_block(ao, frame, scale, counting);
     nook_buffer_update(ao->gpu, ao->frame, 0, &block, sizeof block);
     nook_buffer_update(ao->gpu, ao->counter, 0, zero, sizeof zero);
     if (slot->technique->params_size)
@@ -211,7 +214,7 @@ static void bind_pass(const nook_ao_pass *pass)
     nook_bind_texture(pass->gpu, 1, pass->normal);
     nook_bind_texture(pass->gpu, 2, pass->volume_atlas);
     nook_bind_storage(pass->gpu, 3, pass->occluders);
-    nook_bind_storage(pass->gpu, 7, pass->counter);
+    nook_bind_storage(pass->gpu, BINDING_COUNTER, pass->counter);
     nook_bind_image(pass->gpu, 0, pass->visibility, GL_READ_WRITE);
 }
 

@@ -44,7 +44,7 @@ typedef struct nook_ao_pass {
         frame; /**< Uniform block of shaders/ao/frame.glsl: sizes, rays of view, r_max, falloff, seed. Binding 0. */
     nook_buffer params; /**< Uniform block of this technique's params.def. Binding 1. */
     nook_buffer
-        counter; /**< Storage, two uint32: texture fetches (64 bits, low first). Binding 7; add to it if `counting`. */
+        counter; /**< Storage, two uint32: texture fetches (64 bits, low first). Binding 7: shaders/ao/counter.glsl. */
     int counting;
     uint32_t width, height; /**< Of depth, normal and visibility, pixels. */
 

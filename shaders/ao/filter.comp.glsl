@@ -5,6 +5,7 @@
 //
 // Constant in gives constant out bit for bit: the result is the nearest sample plus a weighted mean of differences to it.
 #include "ao/frame.glsl"
+#include "ao/counter.glsl"
 #include "nook/octahedral.glsl"
 layout(local_size_x = 16, local_size_y = 8) in;
 layout(binding = 0) uniform sampler2D depth_full;
@@ -36,7 +37,7 @@ float plane_distance(Guide guide, ivec2 q, float depth)
 float guide_weight(Guide guide, ivec2 q, float depth)
 {
     float plane = plane_distance(guide, q, depth);
-    float facing = max(dot(guide.normal, nook_octahedral_decode(texelFetch(normal_trace, q, 0).xy)), 0.0);
+    float facing = max(dot(guide.normal, nook_octahedral_decode(fetch(normal_trace, q).xy)), 0.0);
     return exp(-plane * plane) * pow(max(facing, 1e-6), frame.filter_normal);
 }
 
@@ -59,7 +60,7 @@ ivec2 nearest_sample(vec2 centre, Guide guide)
     float best_weight = 0.0;
     for (int i = 0; i < 4; i++) {
         ivec2 q = clamp(base + ivec2(i & 1, i >> 1), ivec2(0), frame.size - 1);
-        float depth = texelFetch(depth_trace, q, 0).r;
+        float depth = fetch(depth_trace, q).r;
         if (depth <= 0.0)
             continue;
         vec2 apart = vec2(q) - centre;
@@ -80,11 +81,11 @@ void add_sample(inout Mean mean, Guide guide, ivec2 q, float window)
 {
     if (window <= 0.0 || any(lessThan(q, ivec2(0))) || any(greaterThanEqual(q, frame.size)))
         return;
-    float depth = texelFetch(depth_trace, q, 0).r;
+    float depth = fetch(depth_trace, q).r;
     float weight = depth > 0.0 ? guide_weight(guide, q, depth) : 0.0;
     if (!(weight >= WEIGHT_MIN)) // nor has one that is not a number
         return;
-    mean.sum += window * weight * (texelFetch(visibility_trace, q, 0).r - mean.reference);
+    mean.sum += window * weight * (fetch(visibility_trace, q).r - mean.reference);
     mean.weights += window * weight;
 }
 
@@ -121,12 +122,12 @@ void add_around(inout Mean mean, Guide guide, vec2 centre)
         ivec2 q = base + ivec2(i % 5 - 2, i / 5 - 2);
         if (any(lessThan(q, ivec2(0))) || any(greaterThanEqual(q, frame.size)))
             continue;
-        float depth = texelFetch(depth_trace, q, 0).r;
+        float depth = fetch(depth_trace, q).r;
         vec2 covered = clamp(2.5 - abs(vec2(q) - centre), 0.0, 1.0);
         float weight = covered.x * covered.y / (1.0 + pow(plane_distance(guide, q, depth), 2.0));
         if (!(depth > 0.0 && weight > 0.0))
             continue;
-        mean.sum += weight * (texelFetch(visibility_trace, q, 0).r - mean.reference);
+        mean.sum += weight * (fetch(visibility_trace, q).r - mean.reference);
         mean.weights += weight;
     }
 }
@@ -134,7 +135,7 @@ void add_around(inout Mean mean, Guide guide, vec2 centre)
 float filtered(vec2 centre, Guide guide, ivec2 p)
 {
     ivec2 start = frame.scale == 1 ? p : nearest_sample(centre, guide);
-    Mean mean = Mean(texelFetch(visibility_trace, start, 0).r, 0.0, 0.0);
+    Mean mean = Mean(fetch(visibility_trace, start).r, 0.0, 0.0);
     if (frame.filter_kind == FILTER_DISC)
         add_disc(mean, guide, centre, p);
     else if (frame.filter_kind == FILTER_TILE)
@@ -151,14 +152,15 @@ void main()
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(p, frame.full_size)))
         return;
-    float depth = texelFetch(depth_full, p, 0).r, result = 1.0;
+    float depth = fetch(depth_full, p).r, result = 1.0;
     if (depth > 0.0) {
         Guide guide;
         guide.position = full_ray(vec2(p)) * depth;
-        guide.normal = nook_octahedral_decode(texelFetch(normal_full, p, 0).xy);
+        guide.normal = nook_octahedral_decode(fetch(normal_full, p).xy);
         guide.footprint = depth * pixel_footprint();
         vec2 centre = (vec2(p) - float(frame.scale / 2)) / float(frame.scale);
         result = clamp(filtered(centre, guide, p), 0.0, 1.0);
     }
     imageStore(visibility_out, p, vec4(result));
+    count_fetches();
 }

@@ -23,11 +23,11 @@ void lower_horizon(HalfSlice h, float angle, inout float horizon, inout float su
 
 // Blocked part of the integral. What raises the horizon is met somewhere between the sample that shows it and the one before: a
 // rise counts with the mean of their falloffs, or with its own where the one before lies farther away.
-float blocked_arc(HalfSlice h, vec3 p, float jitter, inout uint fetches)
+float blocked_arc(HalfSlice h, vec3 p, float jitter)
 {
     float horizon = h.tangent, before = 0.0, sum = 0.0;
     for (int i = 0; i < params.steps; i++) {
-        Sample s = look_along(h, p, pow((float(i) + jitter) / float(params.steps), params.spacing), fetches);
+        Sample s = look_along(h, p, pow((float(i) + jitter) / float(params.steps), params.spacing));
         if (!s.inside)
             break;
         vec3 v = s.position - p;
@@ -45,15 +45,15 @@ float blocked_arc(HalfSlice h, vec3 p, float jitter, inout uint fetches)
 }
 
 // Items are slices.
-float occlusion(ivec2 pixel, vec3 p, vec3 n, inout uint fetches)
+float occlusion(ivec2 pixel, vec3 p, vec3 n)
 {
     vec2 jitter = tile_jitter(pixel);
     float sum = 0.0;
     for (int k = part.x; k < part.y; k++) {
         float angle = 3.14159265 * (float(k) + jitter.x) / float(params.slices);
         float first = fract(jitter.y + float(k) * 0.61803399);
-        sum += blocked_arc(half_slice(p, n, angle), p, first, fetches);
-        sum += blocked_arc(half_slice(p, n, angle + 3.14159265), p, 1.0 - first, fetches);
+        sum += blocked_arc(half_slice(p, n, angle), p, first);
+        sum += blocked_arc(half_slice(p, n, angle + 3.14159265), p, 1.0 - first);
     }
     return sum / float(params.slices);
 }

@@ -36,10 +36,10 @@ HalfSlice half_slice(vec3 p, vec3 n, float angle)
 }
 
 // The depth buffer at a part of the reach, but not nearer than the next texel.
-Sample look_along(HalfSlice h, vec3 p, float part, inout uint fetches)
+Sample look_along(HalfSlice h, vec3 p, float part)
 {
     float texel = -p.z * abs(pixel_footprint()) * float(frame.scale);
-    return look_at(p + h.along * mix(min(texel, h.reach), h.reach, part), fetches);
+    return look_at(p + h.along * mix(min(texel, h.reach), h.reach, part));
 }
 
 // Angle of a seen point v, relative to the receiver. Texels seldom lie on the plane: each is moved there along the receiver's

@@ -6,11 +6,11 @@ layout(std140, binding = 1) uniform Params {
 } params;
 
 // Blocked part of one azimuth.
-float blocked_part(HalfSlice h, vec3 p, float jitter, inout uint fetches)
+float blocked_part(HalfSlice h, vec3 p, float jitter)
 {
     float horizon = max(h.tangent - radians(params.bias), 0.0), sum = 0.0;
     for (int i = 0; i < params.steps; i++) {
-        Sample s = look_along(h, p, (float(i) + jitter) / float(params.steps), fetches);
+        Sample s = look_along(h, p, (float(i) + jitter) / float(params.steps));
         if (!s.inside)
             break;
         vec3 v = s.position - p;
@@ -24,13 +24,13 @@ float blocked_part(HalfSlice h, vec3 p, float jitter, inout uint fetches)
 }
 
 // Items are azimuths.
-float occlusion(ivec2 pixel, vec3 p, vec3 n, inout uint fetches)
+float occlusion(ivec2 pixel, vec3 p, vec3 n)
 {
     vec2 jitter = tile_jitter(pixel);
     float sum = 0.0;
     for (int k = part.x; k < part.y; k++) {
         float angle = 6.2831853 * (float(k) + jitter.x) / float(params.directions);
-        sum += blocked_part(half_slice(p, n, angle), p, fract(jitter.y + float(k) * 0.61803399), fetches);
+        sum += blocked_part(half_slice(p, n, angle), p, fract(jitter.y + float(k) * 0.61803399));
     }
     return sum / float(params.directions);
 }

@@ -1,5 +1,6 @@
 // Full-resolution depth and normals -> trace resolution: one pixel of each block, never an average (it lies on no surface).
 #include "ao/frame.glsl"
+#include "ao/counter.glsl"
 layout(local_size_x = 16, local_size_y = 8) in;
 layout(binding = 0) uniform sampler2D depth_full;
 layout(binding = 1) uniform sampler2D normal_full;
@@ -12,6 +13,7 @@ void main()
     if (any(greaterThanEqual(p, frame.size)))
         return;
     ivec2 from = full_pixel(p);
-    imageStore(depth_out, p, texelFetch(depth_full, from, 0));
-    imageStore(normal_out, p, texelFetch(normal_full, from, 0));
+    imageStore(depth_out, p, fetch(depth_full, from));
+    imageStore(normal_out, p, fetch(normal_full, from));
+    count_fetches();
 }

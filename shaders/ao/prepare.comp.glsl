@@ -1,5 +1,6 @@
 // Device depth and world normals of the host -> distance along -Z and view normals: the inputs of every technique.
 #include "ao/frame.glsl"
+#include "ao/counter.glsl"
 #include "nook/octahedral.glsl"
 layout(local_size_x = 16, local_size_y = 8) in;
 layout(binding = 0) uniform sampler2D device_depth;
@@ -15,7 +16,7 @@ float distance_at(ivec2 p)
 {
     if (any(lessThan(p, ivec2(0))) || any(greaterThanEqual(p, frame.full_size)))
         return 0.0;
-    float d = texelFetch(device_depth, p, 0).r;
+    float d = fetch(device_depth, p).r;
     float distance = frame.depth_to_distance.x / ((d - frame.depth_background) + frame.depth_to_distance.y);
     bool seen = d != frame.depth_background && distance > NEAREST && distance < FARTHEST; // false for NaN
     return seen ? distance : 0.0;
@@ -38,7 +39,7 @@ vec3 slope(ivec2 p, float centre, ivec2 direction)
 vec3 normal_at(ivec2 p, float depth)
 {
     if (frame.has_normal != 0) {
-        vec3 world = nook_octahedral_decode(texelFetch(normal_world, p, 0).xy);
+        vec3 world = nook_octahedral_decode(fetch(normal_world, p).xy);
         mat3 rotation = mat3(frame.view_from_world[0].xyz, frame.view_from_world[1].xyz, frame.view_from_world[2].xyz);
         vec3 view = rotation * world;
         float size = dot(view, view);
@@ -62,4 +63,5 @@ void main()
     float depth = distance_at(p);
     imageStore(depth_out, p, vec4(depth));
     imageStore(normal_out, p, vec4(nook_octahedral_encode(normal_at(p, depth)), 0.0, 0.0));
+    count_fetches();
 }

@@ -14,7 +14,7 @@ layout(binding = 0, r32f) uniform image2D visibility_image;
 layout(location = 0) uniform ivec2 part;
 
 // This part's share of A at view position p with unit normal n.
-float occlusion(ivec2 pixel, vec3 p, vec3 n, inout uint fetches);
+float occlusion(ivec2 pixel, vec3 p, vec3 n);
 
 struct Sample {
     vec3 position; // of the surface seen there
@@ -23,7 +23,7 @@ struct Sample {
 };
 
 // What the depth buffer holds where `point` would be seen.
-Sample look_at(vec3 point, inout uint fetches)
+Sample look_at(vec3 point)
 {
     Sample s = Sample(vec3(0.0), false, false);
     if (point.z >= 0.0)
@@ -33,8 +33,7 @@ Sample look_at(vec3 point, inout uint fetches)
     if (!s.inside)
         return s;
     ivec2 q = ivec2(at);
-    float depth = texelFetch(depth_texture, q, 0).r;
-    fetches++;
+    float depth = fetch(depth_texture, q).r;
     s.position = view_position(q, depth);
     s.seen = depth > 0.0;
     return s;
@@ -45,13 +44,12 @@ void main()
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, frame.size)))
         return;
-    float depth = texelFetch(depth_texture, pixel, 0).r;
+    float depth = fetch(depth_texture, pixel).r;
     float visibility = part.x == 0 ? 1.0 : imageLoad(visibility_image, pixel).r;
-    uint fetches = 0u;
     if (depth > 0.0) {
-        vec3 normal = nook_octahedral_decode(texelFetch(normal_texture, pixel, 0).xy);
-        visibility = clamp(visibility - occlusion(pixel, view_position(pixel, depth), normal, fetches), 0.0, 1.0);
+        vec3 normal = nook_octahedral_decode(fetch(normal_texture, pixel).xy);
+        visibility = clamp(visibility - occlusion(pixel, view_position(pixel, depth), normal), 0.0, 1.0);
     }
     imageStore(visibility_image, pixel, vec4(visibility));
-    count_fetches(fetches);
+    count_fetches();
 }

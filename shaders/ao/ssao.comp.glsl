@@ -10,22 +10,22 @@ const int KERNEL_SPHERE = 0;
 // Unit direction, uniform over the hemisphere or sphere, from the cosine-weighted table: its z^2 is uniform in (0, 1).
 vec3 uniform_direction(int sample_index, int block)
 {
-    vec3 local = texelFetch(directions, ivec2(sample_index, block), 0).xyz;
+    vec3 local = fetch(directions, ivec2(sample_index, block)).xyz;
     float z = params.kernel == KERNEL_SPHERE ? 2.0 * local.z * local.z - 1.0 : local.z * local.z;
     float radius = max(length(local.xy), 1e-6);
     return vec3(local.xy / radius * sqrt(max(1.0 - z * z, 0.0)), z);
 }
 
 // How much the depth buffer occludes p through `point`.
-float test_point(vec3 p, vec3 point, inout uint fetches)
+float test_point(vec3 p, vec3 point)
 {
-    Sample s = look_at(point, fetches);
+    Sample s = look_at(point);
     if (!s.seen || -s.position.z >= -point.z - params.bias * frame.r_max)
         return 0.0;
     return falloff(distance(s.position, p));
 }
 
-float occlusion(ivec2 pixel, vec3 p, vec3 normal, inout uint fetches)
+float occlusion(ivec2 pixel, vec3 p, vec3 normal)
 {
     vec3 tangent, bitangent;
     tangent_frame(normal, tangent, bitangent);
@@ -34,7 +34,7 @@ float occlusion(ivec2 pixel, vec3 p, vec3 normal, inout uint fetches)
     for (int i = 0; i < params.samples; i++) {
         vec3 local = uniform_direction(i, block);
         float radius = frame.r_max * pow(fract(shift + (float(i) + 0.5) * 0.61803399), 1.0 / 3.0); // uniform in the volume
-        sum += test_point(p, p + radius * (tangent * local.x + bitangent * local.y + normal * local.z), fetches);
+        sum += test_point(p, p + radius * (tangent * local.x + bitangent * local.y + normal * local.z));
     }
     float mean = sum / float(params.samples);
     return params.kernel == KERNEL_SPHERE ? max(2.0 * mean - 1.0, 0.0) : mean;

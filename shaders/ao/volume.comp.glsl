@@ -87,7 +87,7 @@ Path make_path(Occluder o, Receiver r, vec3 d, float cosine)
 
 // Distance of the first hit along d (unit, view space), or NO_HIT when there is none before `limit`. Where samples lie does not
 // depend on the limit, so that the nearest of several volumes is the same in whatever order they come.
-float march(Occluder o, Receiver r, vec3 d, float cosine, float limit, float jitter, inout uint fetches)
+float march(Occluder o, Receiver r, vec3 d, float cosine, float limit, float jitter)
 {
     Path path = make_path(o, r, d, cosine);
     if (!(path.start < path.end))
@@ -105,8 +105,7 @@ float march(Occluder o, Receiver r, vec3 d, float cosine, float limit, float jit
     for (int i = 0; i < int(count) && t < last; i++, t += dr) {
         vec3 voxel = t < path.leave ? path.lifted + path.across * t : path.origin + path.along * t;
         voxel = clamp(voxel, vec3(MARGIN), o.size.xyz - MARGIN);
-        fetches++;
-        if (textureLod(volume_atlas, (o.atlas.xyz + voxel) * texel, 0.0).r >= params.threshold)
+        if (fetch_filtered(volume_atlas, (o.atlas.xyz + voxel) * texel).r >= params.threshold)
             return max(t + correction, 0.0);
     }
     return NO_HIT;
@@ -115,7 +114,7 @@ float march(Occluder o, Receiver r, vec3 d, float cosine, float limit, float jit
 // Exact for any number of volumes: rho of the nearest hit, ray by ray. Uniform control flow. `sum` is that over the rays of earlier
 // parts; rays are added one by one, so that the cut does not show in the result. A part without the last occluder has one ray
 // only, whose nearest hit waits.
-float sum_union(float sum, bool inside, vec3 position, vec3 normal, ivec2 pixel, inout uint fetches)
+float sum_union(float sum, bool inside, vec3 position, vec3 normal, ivec2 pixel)
 {
     vec3 tangent, bitangent;
     tangent_frame(normal, tangent, bitangent);
@@ -139,7 +138,7 @@ float sum_union(float sum, bool inside, vec3 position, vec3 normal, ivec2 pixel,
                         break;
                     vec3 d = direction(first + j, block, tangent, bitangent, normal);
                     float jitter = fract(shift + float(first + j) * 0.61803399);
-                    nearest[j] = min(nearest[j], march(o, r, d, dot(d, normal), nearest[j], jitter, fetches));
+                    nearest[j] = min(nearest[j], march(o, r, d, dot(d, normal), nearest[j], jitter));
                 }
             }
         }
@@ -153,7 +152,7 @@ float sum_union(float sum, bool inside, vec3 position, vec3 normal, ivec2 pixel,
 
 // The paper's: product of the volumes' visibilities; darkens where volumes overlap, lights where they do not (C5). `visibility` is
 // that of earlier parts. A part that does not hold all rays holds one occluder only; the last of such parts has its factor.
-float multiply_visibilities(float visibility, bool inside, vec3 position, vec3 normal, ivec2 pixel, inout uint fetches)
+float multiply_visibilities(float visibility, bool inside, vec3 position, vec3 normal, ivec2 pixel)
 {
     vec3 tangent, bitangent;
     tangent_frame(normal, tangent, bitangent);
@@ -170,7 +169,7 @@ float multiply_visibilities(float visibility, bool inside, vec3 position, vec3 n
             for (int j = part.x; j < part.y; j++) {
                 vec3 d = direction(j, block, tangent, bitangent, normal);
                 float jitter = fract(shift + float(j) * 0.61803399);
-                sum += falloff(march(o, r, d, dot(d, normal), frame.r_max, jitter, fetches));
+                sum += falloff(march(o, r, d, dot(d, normal), frame.r_max, jitter));
             }
             if (part.y < params.rays)
                 imageStore(kept_image, pixel, vec4(sum));
@@ -195,18 +194,17 @@ void main()
 {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     bool on_image = all(lessThan(pixel, frame.size)), multiply = params.combine == COMBINE_MULTIPLY;
-    float depth = on_image ? texelFetch(depth_texture, pixel, 0).r : 0.0;
+    float depth = on_image ? fetch(depth_texture, pixel).r : 0.0;
     // Between parts the image holds the product so far, or the sum of rho so far.
     bool is_first = part.x == 0 && part.z == 0, is_last = part.y == params.rays && part.w == occluder_count;
     float result = is_first || !on_image ? (multiply ? 1.0 : 0.0) : imageLoad(visibility_image, pixel).r;
-    uint fetches = 0u;
     if (tile_begin(depth)) {
         vec3 position = view_position(pixel, depth);
-        vec3 normal = on_image ? nook_octahedral_decode(texelFetch(normal_texture, pixel, 0).xy) : vec3(0.0, 0.0, 1.0);
+        vec3 normal = on_image ? nook_octahedral_decode(fetch(normal_texture, pixel).xy) : vec3(0.0, 0.0, 1.0);
         if (multiply)
-            result = multiply_visibilities(result, depth > 0.0, position, normal, pixel, fetches);
+            result = multiply_visibilities(result, depth > 0.0, position, normal, pixel);
         else
-            result = sum_union(result, depth > 0.0, position, normal, pixel, fetches);
+            result = sum_union(result, depth > 0.0, position, normal, pixel);
         if (loops_were_ended())
             again.groups_x = gl_NumWorkGroups.x;
     }
@@ -216,5 +214,5 @@ void main()
         result = depth > 0.0 ? clamp(result, 0.0, 1.0) : 1.0;
     if (on_image)
         imageStore(visibility_image, pixel, vec4(result));
-    count_fetches(fetches);
+    count_fetches();
 }
