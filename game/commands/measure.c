@@ -40,10 +40,11 @@ static nook_result gather(const nook_measure_options *options, const char *build
 {
     nook_result result = NOOK_OK;
     for (size_t i = 0; i < options->merge.count && result == NOOK_OK; i++) {
-        size_t taken = 0;
-        result = nook_measure_merge(options->merge.items[i], options->out, build, results, journal, &taken);
+        size_t taken = 0, left = 0;
+        result = nook_measure_merge(options->merge.items[i], options->out, build, results, journal, &taken, &left);
         if (result == NOOK_OK)
-            nook_log_info("%s: %zu rows taken in", options->merge.items[i], taken);
+            nook_log_info("%s: %zu rows taken in, %zu left out that are here already", options->merge.items[i], taken,
+                          left);
     }
     size_t dropped = options->keep || options->tables ? 0 : nook_measure_drop_other_builds(results, build);
     if (dropped > 0)
@@ -102,15 +103,14 @@ static bool print_summary(const nook_measure_options *options, const nook_measur
     nook_measure_verdict verdict = nook_measure_judge(run->results);
     bool holds = verdict.over == 0 && verdict.non_finite == 0 && verdict.worst;
     if (verdict.over > 0)
-        nook_log_warning("%zu rows have a truth whose noise is over a quarter of the error; raise rays_max",
+        nook_log_warning("%zu rows have a truth whose noise is over a quarter of an error; raise rays_max",
                          verdict.over);
     printf("%s: %zu rows measured, %zu reused, %zu sites; ", options->out, run->progress.measured, run->reused,
            run->sites);
     if (verdict.worst)
-        printf("noise of the truth at most %.3f of the error%s (%s, %s, %.3g m: %s), %s a quarter; ",
-               verdict.largest_part, verdict.worst_is_screen ? " against the screen's" : "", verdict.worst->scene,
-               verdict.worst->camera, verdict.worst->r_max, verdict.worst->setting,
-               verdict.over > 0 ? "over" : "everywhere under");
+        printf("noise of the truth at most %.3f of an error (%s of %s, %s, %.3g m: %s), %s a quarter; ",
+               verdict.largest_part, verdict.worst_error, verdict.worst->scene, verdict.worst->camera,
+               verdict.worst->r_max, verdict.worst->setting, verdict.over > 0 ? "over" : "everywhere under");
     if (run->failures > 0)
         printf("%zu scenes failed; ", run->failures);
     printf("%llu pixels not finite\n", (unsigned long long)verdict.non_finite);

@@ -1,6 +1,7 @@
 #include "game/measure/journal.h"
 #include "engine/core/file.h"
 #include "engine/core/log.h"
+#include "game/measure/measure_pictures.h"
 #include "game/measure/result_columns.h"
 #include <errno.h>
 #include <fcntl.h>
@@ -76,14 +77,24 @@ static nook_result read_lines(const char *path, const char *text, size_t size, n
     return result;
 }
 
-/* Those that were removed after their row was written. */
+/* Those that were removed after their row was written, and paths that lead out of the folder: it may be a foreign journal, and
+   pictures are opened, copied and removed. */
 static void forget_pictures(const char *folder, nook_results *results)
 {
     for (size_t i = 0; i < results->row_count; i++) {
         char path[4096];
         nook_result_row *row = &results->rows[i];
-        if (!nook_file_exists(nook_path_join(path, sizeof path, folder, row->picture)))
+        bool inside = nook_measure_picture_is_inside(row->picture);
+        if (!inside || !nook_file_exists(nook_path_join(path, sizeof path, folder, row->picture)))
             row->picture[0] = '\0';
+    }
+    for (size_t i = 0; i < results->site_count; i++) {
+        nook_result_site *site = &results->sites[i];
+        char *const pictures[] = { site->truth, site->screen, site->geometry, site->lit };
+        for (size_t k = 0; k < NOOK_COUNT(pictures); k++) {
+            if (!nook_measure_picture_is_inside(pictures[k]))
+                pictures[k][0] = '\0';
+        }
     }
 }
 
@@ -190,6 +201,21 @@ static size_t join_lines(const char *text, size_t size, char *out)
     return used;
 }
 
+/* Whole or not at all: half a line with another behind it would make the whole folder unreadable. */
+static nook_result write_line(nook_journal *journal, const char *line, size_t length)
+{
+    off_t end = lseek(journal->file, 0, SEEK_END);
+    errno = 0;
+    if (end >= 0 && write(journal->file, line, length) == (ssize_t)length)
+        return NOOK_OK;
+    const char *reason = errno ? strerror(errno) : "the disk is full";
+    if (end >= 0 && ftruncate(journal->file, end) != 0)
+        nook_log_warning("%s: its last line is cut short, and cannot be cut away", journal->path);
+    nook_journal_close(journal); /* nothing may be written behind it */
+    return nook_fail(NOOK_E_IO, "%s: cannot write: %s; make room and give the same command again", journal->path,
+                     reason);
+}
+
 static nook_result append(nook_journal *journal, const char *key, const nook_result_column *columns, size_t count,
                           const void *record)
 {
@@ -197,6 +223,8 @@ static nook_result append(nook_journal *journal, const char *key, const nook_res
     const char *text;
     size_t size;
     char *line = NULL;
+    if (journal->file < 0)
+        return nook_fail(NOOK_E_IO, "%s: cannot be written any more", journal->path);
     nook_json_begin_object(&json);
     nook_json_key(&json, key);
     nook_result_write_json(&json, columns, count, record);
@@ -205,9 +233,7 @@ static nook_result append(nook_journal *journal, const char *key, const nook_res
     if (result == NOOK_OK && !(line = malloc(size + 1)))
         result = nook_fail(NOOK_E_MEMORY, "no memory for a line of %s", journal->path);
     if (result == NOOK_OK) {
-        size_t length = join_lines(text, size, line);
-        if (write(journal->file, line, length) != (ssize_t)length)
-            result = nook_fail(NOOK_E_IO, "%s: cannot write: %s", journal->path, strerror(errno));
+        result = write_line(journal, line, join_lines(text, size, line));
     }
     free(line);
     nook_json_free(&json);

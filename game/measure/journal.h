@@ -20,6 +20,6 @@ typedef struct nook_journal {
 nook_result nook_journal_open(const char *folder, nook_journal *out_journal);
 void nook_journal_close(nook_journal *journal); /**< Closed ones are allowed. */
 
-/** Writes one line, at once. @return NOOK_E_IO, NOOK_E_MEMORY */
+/** Writes one line, at once. Where that fails, the file is as it was and the journal closed: there is no use in measuring on. @return NOOK_E_IO, NOOK_E_MEMORY */
 nook_result nook_journal_append(nook_journal *journal, const nook_result_row *row);
 nook_result nook_journal_append_site(nook_journal *journal, const nook_result_site *site);

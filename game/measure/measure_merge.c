@@ -5,14 +5,14 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A picture that is not there, or whose path leads out of its folder, is done without. */
+/* A picture that is not there is done without. */
 static nook_result copy_picture(const char *from, const char *folder, const char *path)
 {
     char source[4096], target[4096], parent[4096];
     nook_file file;
     nook_path_join(source, sizeof source, from, path);
     nook_path_join(target, sizeof target, folder, path);
-    if (path[0] == '\0' || strstr(path, "..") || nook_file_exists(target) || !nook_file_exists(source))
+    if (path[0] == '\0' || nook_file_exists(target) || !nook_file_exists(source))
         return NOOK_OK;
     snprintf(parent, sizeof parent, "%.*s", (int)(nook_path_name(target) - target), target);
     nook_result result = nook_directory_make(parent);
@@ -53,11 +53,11 @@ static bool is_wanted(const nook_results *results, const nook_result_row *row, c
 }
 
 nook_result nook_measure_merge(const char *from, const char *folder, const char *build, nook_results *results,
-                               nook_journal *journal, size_t *out_taken)
+                               nook_journal *journal, size_t *out_taken, size_t *out_left)
 {
     char path[4096];
     nook_results others;
-    size_t taken = 0;
+    size_t taken = 0, left = 0;
     if (!nook_file_exists(nook_path_join(path, sizeof path, from, NOOK_JOURNAL_NAME)))
         return nook_fail(NOOK_E_NOT_FOUND, "%s: nothing was measured into it; give a folder with %s", from,
                          NOOK_JOURNAL_NAME);
@@ -65,8 +65,10 @@ nook_result nook_measure_merge(const char *from, const char *folder, const char 
     if (result != NOOK_OK)
         return result;
     for (size_t i = 0; i < others.row_count && result == NOOK_OK; i++) {
-        if (!is_wanted(results, &others.rows[i], build))
+        if (!is_wanted(results, &others.rows[i], build)) {
+            left++;
             continue;
+        }
         result = take_row(&others.rows[i], from, folder, results, journal);
         taken++;
     }
@@ -76,7 +78,7 @@ nook_result nook_measure_merge(const char *from, const char *folder, const char 
     }
     nook_results_free(&others);
     if (result == NOOK_OK)
-        *out_taken = taken;
+        *out_taken = taken, *out_left = left;
     return result;
 }
 

@@ -2,6 +2,7 @@
 #include "engine/core/file.h"
 #include "engine/core/log.h"
 #include "game/exposure.h"
+#include "game/measure/measure_origin.h"
 #include "game/measure/summary.h"
 #include <ctype.h>
 #include <inttypes.h>
@@ -32,15 +33,27 @@ static uint32_t short_hash(const char *text, uint64_t seed)
 
 const char *nook_measure_picture_path(const nook_result_row *row, const char *name, char out[NOOK_MEASURE_PICTURE_MAX])
 {
-    char site[1024], scene[NAME_CAPACITY], camera[NAME_CAPACITY], file[NAME_CAPACITY];
-    snprintf(site, sizeof site, "%s/%s/%ux%u/%.17g/%s", row->scene_hash, row->camera, row->width, row->height,
-             row->r_max, row->falloff);
+    char site[1024 + NOOK_ORIGIN_MACHINE_SIZE], scene[NAME_CAPACITY], camera[NAME_CAPACITY], file[NAME_CAPACITY];
+    snprintf(site, sizeof site, "%s/%s/%ux%u/%.17g/%s/%s", row->scene_hash, row->camera, row->width, row->height,
+             row->r_max, row->falloff, row->machine);
     clean(row->scene, scene);
     clean(row->camera, camera);
     clean(name, file);
     snprintf(out, NOOK_MEASURE_PICTURE_MAX, "pictures/%s_%s_%.3gm_%08" PRIx32 "/%s_%08" PRIx32 ".png", scene, camera,
              row->r_max, short_hash(site, 0), file, short_hash(name, 0));
     return out;
+}
+
+bool nook_measure_picture_is_inside(const char *path)
+{
+    if (path[0] == '/')
+        return false;
+    for (const char *part = path; part; part = strchr(part, '/')) {
+        part += *part == '/';
+        if (strncmp(part, "..", 2) == 0 && (part[2] == '/' || part[2] == '\0'))
+            return false;
+    }
+    return true;
 }
 
 static nook_result write_picture(const char *folder, const char *path, const nook_picture *picture)
@@ -117,6 +130,7 @@ nook_result nook_measure_site_write(nook_stage *stage, const nook_site *site, co
     if (result != NOOK_OK)
         return result;
     *out_site = (nook_result_site){ .scene = row->scene,
+                                    .scene_hash = row->scene_hash,
                                     .camera = row->camera,
                                     .width = row->width,
                                     .height = row->height,

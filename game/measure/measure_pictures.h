@@ -11,6 +11,9 @@ enum { NOOK_MEASURE_PICTURE_MAX = 512 };
  */
 const char *nook_measure_picture_path(const nook_result_row *row, const char *name, char out[NOOK_MEASURE_PICTURE_MAX]);
 
+/** Whether a path that a journal names stays in the folder: it may be a foreign one. "" does. */
+bool nook_measure_picture_is_inside(const char *path);
+
 /** Writes visibility as grey, and makes the folders. @return NOOK_E_IO, NOOK_E_MEMORY */
 nook_result nook_measure_picture_write(const char *folder, const char *path, const float *values, uint32_t width,
                                        uint32_t height);

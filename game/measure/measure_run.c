@@ -76,6 +76,8 @@ void nook_measure_run_scenes(nook_measure_run *run, const nook_scene_list *scene
         if (nook_measure_run_scene(run, scenes->paths[i]) == NOOK_OK)
             continue;
         run->failures++;
+        if (run->journal->file < 0) /* what is measured could not be kept */
+            break;
         run->progress.total -= rows - (run->progress.handled - before); /* what it would have had */
     }
     nook_measure_progress_end(&run->progress);

@@ -25,7 +25,7 @@ typedef struct nook_measure_run {
 
 /**
  * Measures until it is done or nook_interrupt_asked; the journal then has all that was measured. A scene that cannot be measured is
- * counted, and the next is taken.
+ * counted, and the next is taken; a journal that cannot be written ends it.
  */
 void nook_measure_run_scenes(nook_measure_run *run, const nook_scene_list *scenes);
 

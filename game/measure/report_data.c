@@ -33,10 +33,11 @@ static void write_numbers(nook_json *json, const nook_sample *sample)
     nook_json_numbers(json, numbers, count);
 }
 
-static void write_place(nook_json *json, const char *scene, const char *camera, uint32_t width, uint32_t height,
-                        double r_max, const char *falloff)
+static void write_place(nook_json *json, const char *scene, const char *scene_hash, const char *camera, uint32_t width,
+                        uint32_t height, double r_max, const char *falloff)
 {
     nook_json_member_string(json, "scene", scene);
+    nook_json_member_string(json, "scene_hash", scene_hash);
     nook_json_member_string(json, "camera", camera);
     nook_json_member_integer(json, "width", width);
     nook_json_member_integer(json, "height", height);
@@ -47,8 +48,7 @@ static void write_place(nook_json *json, const char *scene, const char *camera, 
 static void write_row(nook_json *json, const nook_result_row *row)
 {
     nook_json_begin_object(json);
-    write_place(json, row->scene, row->camera, row->width, row->height, row->r_max, row->falloff);
-    nook_json_member_string(json, "scene_hash", row->scene_hash);
+    write_place(json, row->scene, row->scene_hash, row->camera, row->width, row->height, row->r_max, row->falloff);
     nook_json_member_number(json, "r_max_part", row->r_max_part);
     nook_json_member_string(json, "setting", row->setting);
     nook_json_member_string(json, "technique", row->technique);
@@ -67,7 +67,8 @@ static void write_row(nook_json *json, const nook_result_row *row)
 static void write_site(nook_json *json, const nook_result_site *site)
 {
     nook_json_begin_object(json);
-    write_place(json, site->scene, site->camera, site->width, site->height, site->r_max, site->falloff);
+    write_place(json, site->scene, site->scene_hash, site->camera, site->width, site->height, site->r_max,
+                site->falloff);
     nook_json_member_number(json, "reference_noise", site->reference_noise);
     nook_json_member_integer(json, "reference_rays", site->reference_rays);
     nook_json_member_string(json, "truth", site->truth);

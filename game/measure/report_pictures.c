@@ -1,6 +1,7 @@
 #include "engine/asset/image.h"
 #include "engine/core/file.h"
 #include "engine/core/log.h"
+#include "game/measure/measure_pictures.h"
 #include "game/measure/report_internal.h"
 #include "game/measure/summary.h"
 #include <limits.h>
@@ -108,7 +109,7 @@ static void put_picture(FILE *out, const char *name, const nook_file *file)
 }
 
 typedef struct picture_count {
-    size_t missing, over; /* Not there or no PNG; beyond the room there is. */
+    size_t missing, over; /* Not there, no PNG or out of the folder; beyond the room there is. */
     size_t bytes;         /* Of those written. */
     const char *first;    /* Missing one. */
 } picture_count;
@@ -118,7 +119,7 @@ static void put_file(FILE *out, const char *folder, const char *name, picture_co
     char path[PATH_MAX];
     nook_file file = { 0 };
     nook_path_join(path, sizeof path, folder, name);
-    if (!nook_file_exists(path) || nook_file_read(path, &file) != NOOK_OK ||
+    if (!nook_measure_picture_is_inside(name) || !nook_file_exists(path) || nook_file_read(path, &file) != NOOK_OK ||
         nook_image_detect(file.bytes, file.size) != NOOK_IMAGE_PNG) {
         count->first = count->first ? count->first : name;
         count->missing++;
@@ -143,7 +144,8 @@ nook_result nook_report_put_pictures(FILE *out, const nook_results *results, con
     for (size_t i = 0; i < wanted; i++)
         put_file(out, folder, list[i].name, &count);
     if (count.missing)
-        nook_log_warning("%s: %zu of %zu pictures are missing or no PNG (%s); the report shows their numbers only",
+        nook_log_warning("%s: %zu of %zu pictures are missing, no PNG or out of the folder (%s); the report shows "
+                         "their numbers only",
                          folder, count.missing, wanted, count.first);
     if (count.over)
         nook_log_warning(

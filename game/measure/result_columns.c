@@ -33,6 +33,7 @@ static const nook_result_column row_columns[] = {
     ROW("p99", NUMBER, sample.truth.p99),
     ROW("max", NUMBER, sample.truth.max),
     ROW("ssim", NUMBER, sample.ssim),
+    ROW("ssim_ceiling", NUMBER, sample.ssim_ceiling),
     ROW("screen_bias", NUMBER, sample.screen.bias),
     ROW("screen_rmse", NUMBER, sample.screen.rmse),
     ROW("screen_mae", NUMBER, sample.screen.mae),
@@ -54,6 +55,9 @@ static const nook_result_column row_columns[] = {
     ROW("instability_non_finite", COUNT, sample.instability.non_finite),
     ROW("reference_noise", NUMBER, sample.reference_noise),
     ROW("reference_rays", WHOLE, sample.reference_rays),
+    ROW("reference_noise_inside", NUMBER, sample.noise_inside),
+    ROW("reference_noise_outside", NUMBER, sample.noise_outside),
+    ROW("reference_noise_away", NUMBER, sample.noise_away),
     ROW("screen_noise", NUMBER, sample.screen_noise),
     ROW("build", TEXT, build),
     ROW("date", TEXT, date),
@@ -64,6 +68,7 @@ static const nook_result_column row_columns[] = {
 #define SITE(name, kind, member) { name, NOOK_RESULT_##kind, offsetof(nook_result_site, member) }
 static const nook_result_column site_columns[] = {
     SITE("scene", TEXT, scene),
+    SITE("scene_hash", TEXT, scene_hash),
     SITE("camera", TEXT, camera),
     SITE("width", WHOLE, width),
     SITE("height", WHOLE, height),

@@ -14,7 +14,8 @@ static bool same_text(const char *a, const char *b)
 bool nook_result_row_same_site(const nook_result_row *a, const nook_result_row *b)
 {
     return a->width == b->width && a->height == b->height && a->r_max == b->r_max && same_text(a->camera, b->camera) &&
-           same_text(a->scene_hash, b->scene_hash) && same_text(a->falloff, b->falloff);
+           same_text(a->scene_hash, b->scene_hash) && same_text(a->falloff, b->falloff) &&
+           same_text(a->machine, b->machine);
 }
 
 static bool same_row(const nook_result_row *a, const nook_result_row *b)
@@ -25,7 +26,7 @@ static bool same_row(const nook_result_row *a, const nook_result_row *b)
 static bool same_site(const nook_result_site *a, const nook_result_site *b)
 {
     return a->width == b->width && a->height == b->height && a->r_max == b->r_max && same_text(a->camera, b->camera) &&
-           same_text(a->scene, b->scene) && same_text(a->falloff, b->falloff);
+           same_text(a->scene_hash, b->scene_hash) && same_text(a->falloff, b->falloff);
 }
 
 const nook_result_row *nook_results_find(const nook_results *results, const nook_result_row *like)

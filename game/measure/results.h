@@ -27,7 +27,7 @@ typedef struct nook_result_row {
 
 /** Pictures and numbers of a site that no setting changes. */
 typedef struct nook_result_site {
-    char *scene, *camera;
+    char *scene, *scene_hash, *camera;
     uint32_t width, height;
     double r_max;
     char *falloff;
@@ -50,11 +50,15 @@ typedef struct nook_results {
 nook_result nook_results_read(const char *folder, nook_results *out_results);
 void nook_results_free(nook_results *results); /**< Zeroed ones are allowed. */
 
-/** Whether both were measured at one site: the same scene content, camera, size, r_max and falloff. */
+/**
+ * Whether both were measured at one site by one machine: the same scene content, camera, size, r_max and falloff. Rows of two
+ * machines are two rows: their times have nothing to do with each other.
+ */
 bool nook_result_row_same_site(const nook_result_row *a, const nook_result_row *b);
 
-/** A row of the same scene content, camera, size, r_max, falloff and setting, whatever measured it; or NULL. */
+/** A row of the same scene content, camera, size, r_max, falloff, setting and machine, of whatever build; or NULL. */
 const nook_result_row *nook_results_find(const nook_results *results, const nook_result_row *like);
+/** A site of the same scene content, camera, size, r_max and falloff; or NULL. */
 const nook_result_site *nook_results_find_site(const nook_results *results, const nook_result_site *like);
 
 /** Adds a row, in the place of one that find would give. @param row  its texts are copied @return NOOK_E_MEMORY */

@@ -19,6 +19,7 @@ static const nook_sample_column columns[] = {
     COLUMN("p99", LARGEST, truth.p99),
     COLUMN("max", LARGEST, truth.max),
     COLUMN("ssim", MEAN, ssim),
+    COLUMN("ssim_ceiling", MEAN, ssim_ceiling),
     COLUMN("screen_rmse", RMS, screen.rmse),
     COLUMN("screen_bias", MEAN, screen.bias),
     COLUMN("screen_mae", MEAN, screen.mae),

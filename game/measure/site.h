@@ -46,6 +46,7 @@ typedef struct nook_sample {
     nook_errors truth;   /**< Against rays through the scene. */
     nook_errors screen;  /**< Against rays through the surfaces that the depth buffer shows; NaN for such rays. */
     double ssim;         /**< Mean structural similarity with the truth, 1 = equal. */
+    double ssim_ceiling; /**< About what a picture without any error would have: the truth's noise lowers it. */
     double rmse_inside;  /**< RMSE on the near side of silhouettes, within a few pixels of them. */
     double rmse_outside; /**< ... on the far side, where halos are. */
     double rmse_away;    /**< ... everywhere else. */
@@ -54,8 +55,9 @@ typedef struct nook_sample {
     double flicker;          /**< RMS change at the same points between consecutive frames of a short camera path. */
     double reference_noise;  /**< Of the truth, RMS: it stands in quadrature in truth.rmse. */
     uint32_t reference_rays; /**< Per pixel. */
-    double screen_noise;     /**< As reference_noise, of the truth that `screen` was measured against. */
-    nook_grey visibility;    /**< NOOK_MEASURE_PICTURE: owned by the caller. */
+    double noise_inside, noise_outside, noise_away; /**< As reference_noise, over the pixels of rmse_inside, ... */
+    double screen_noise;  /**< As reference_noise, of the truth that `screen` was measured against. */
+    nook_grey visibility; /**< NOOK_MEASURE_PICTURE: owned by the caller. */
 } nook_sample;
 
 /** @param stage  outlives the site @return why not; *out_site is NULL then */
@@ -64,7 +66,7 @@ void nook_site_close(nook_site *site); /**< NULL is allowed. */
 
 /**
  * Draws the site's G-buffer again, applies the setting and measures it. Where the truth's noise is over a
- * quarter of the error found, it is traced further first, as far as rays_max allows.
+ * quarter of an error found (game/measure/measure_verdict.h), it is traced further first, as far as rays_max allows.
  * @param what  NOOK_MEASURE_*, no more than the site was opened for
  */
 nook_result nook_site_measure(nook_site *site, const nook_setting *setting, uint32_t what, nook_sample *out_sample);

@@ -5,14 +5,10 @@
 #include "game/stage.h"
 #include "modules/ao/technique.h"
 #include "modules/measure/noise.h"
-#include "modules/measure/ssim.h"
 #include <assert.h>
 #include <math.h>
 
-enum { FRAMES_MIN = 3, FRAMES_MAX = 9, TIMING_MS = 400, SEEDS = 2 };
-
-/* Of an error, what the truth's own noise may be: in quadrature a quarter adds 3 % to it. */
-static const double noise_part = 0.25;
+enum { FRAMES_MIN = 3, FRAMES_MAX = 9, TIMING_MS = 400, WARM_UPS = 2, SEEDS = 2 };
 
 static nook_sample empty_sample(void)
 {
@@ -26,12 +22,16 @@ static nook_sample empty_sample(void)
                           .truth = no_errors,
                           .screen = no_errors,
                           .ssim = NAN,
+                          .ssim_ceiling = NAN,
                           .rmse_inside = NAN,
                           .rmse_outside = NAN,
                           .rmse_away = NAN,
                           .noise = NAN,
                           .instability = { .rms = NAN, .contrast = NAN, .relative = NAN },
                           .flicker = NAN,
+                          .noise_inside = NAN,
+                          .noise_outside = NAN,
+                          .noise_away = NAN,
                           .screen_noise = NAN };
 }
 
@@ -67,12 +67,17 @@ static nook_result count(nook_site *site, const nook_ao_technique *technique, no
     return nook_ao_set_param(ao, "ao.count", 0.0);
 }
 
-/* As many frames as fit, told from the one that warms up: without counting it is another program. */
+/* As many frames as fit, told from the second of two that warm up: the first links and compiles, as without counting it is another
+   program. */
 static nook_result warm_up(nook_site *site, uint32_t *out_frames)
 {
-    nook_gpu_finish(site->stage->gpu);
-    double start = nook_clock_ms();
-    nook_result result = nook_stage_occlude(site->stage);
+    double start = 0.0;
+    nook_result result = NOOK_OK;
+    for (int i = 0; i < WARM_UPS && result == NOOK_OK; i++) {
+        nook_gpu_finish(site->stage->gpu);
+        start = nook_clock_ms();
+        result = nook_stage_occlude(site->stage);
+    }
     nook_gpu_finish(site->stage->gpu);
     double frames = TIMING_MS / fmax(nook_clock_ms() - start, 1e-3);
     *out_frames = (uint32_t)fmin(fmax(frames, FRAMES_MIN), FRAMES_MAX);
@@ -167,61 +172,6 @@ static nook_result measure_steadiness(nook_site *site, const nook_grey *picture,
     return result == NOOK_OK ? nook_stage_begin(site->stage, &site->camera) : result;
 }
 
-/* ---- Errors ----------------------------------------------------------------------------------------------------- */
-
-/* Measures; where the truth is too noisy for what was found, it is traced further and measured again. */
-static nook_result measure_against(nook_site *site, nook_truth *truth, const nook_grey *picture,
-                                   nook_errors *out_errors)
-{
-    size_t pixels = (size_t)site->width * site->height;
-    nook_result result = nook_errors_measure(picture->values, truth->values, site->geometry, pixels, out_errors);
-    uint32_t rays = 0;
-    while (result == NOOK_OK && truth->noise > noise_part * out_errors->rmse && truth->rays != rays) {
-        rays = truth->rays;
-        result = nook_truth_refine(truth, site->stage, noise_part * out_errors->rmse);
-        if (result == NOOK_OK)
-            result = nook_errors_measure(picture->values, truth->values, site->geometry, pixels, out_errors);
-    }
-    return result;
-}
-
-static nook_result measure_sides(nook_site *site, const nook_grey *picture, nook_sample *sample)
-{
-    double *const out[] = { &sample->rmse_inside, &sample->rmse_outside, &sample->rmse_away };
-    nook_result result = NOOK_OK;
-    for (size_t i = 0; i < NOOK_COUNT(out) && result == NOOK_OK; i++) {
-        nook_errors errors;
-        result = nook_errors_measure(picture->values, site->truth.values, site->sides[i],
-                                     (size_t)site->width * site->height, &errors);
-        if (result == NOOK_OK)
-            *out[i] = errors.rmse;
-    }
-    return result;
-}
-
-/* What is left out of `screen`: the rays of the screen's own truth, whose difference from it is chance. */
-static nook_result measure_errors(nook_site *site, const nook_setting *setting, uint32_t what, const nook_grey *picture,
-                                  nook_sample *sample)
-{
-    nook_ssim ssim;
-    nook_result result = measure_against(site, &site->truth, picture, &sample->truth);
-    if (result == NOOK_OK)
-        result = measure_sides(site, picture, sample);
-    if (result == NOOK_OK)
-        result =
-            nook_ssim_measure(picture->values, site->truth.values, site->geometry, site->width, site->height, &ssim);
-    if (result == NOOK_OK && what & NOOK_MEASURE_SCREEN && !setting->technique->exact)
-        result = measure_against(site, &site->screen, picture, &sample->screen);
-    if (result != NOOK_OK)
-        return result;
-    sample->ssim = ssim.mean;
-    sample->reference_noise = site->truth.noise;
-    sample->reference_rays = site->truth.rays;
-    if (what & NOOK_MEASURE_SCREEN)
-        sample->screen_noise = site->screen.noise;
-    return NOOK_OK;
-}
-
 /* Everything that needs the picture, which stays the caller's. */
 static nook_result measure_picture(nook_site *site, const nook_setting *setting, uint32_t what,
                                    const nook_grey *picture, nook_sample *sample)
@@ -229,7 +179,7 @@ static nook_result measure_picture(nook_site *site, const nook_setting *setting,
     nook_result result = NOOK_OK;
     if (what & NOOK_MEASURE_STEADINESS && !setting->technique->exact) /* whose frames take seconds */
         result = measure_steadiness(site, picture, sample);
-    return result == NOOK_OK ? measure_errors(site, setting, what, picture, sample) : result;
+    return result == NOOK_OK ? nook_site_measure_errors(site, setting, what, picture, sample) : result;
 }
 
 static bool is_as_it_was(const nook_site *site)

@@ -23,7 +23,11 @@ static int compare_views(const nook_result_row *a, const nook_result_row *b)
         order = compare_numbers(a->width, b->width);
     if (order == 0)
         order = compare_numbers(a->height, b->height);
-    return order ? order : strcmp(a->falloff, b->falloff);
+    if (order == 0)
+        order = strcmp(a->falloff, b->falloff);
+    if (order == 0)
+        order = strcmp(a->machine, b->machine); /* whose times have nothing to do with each other */
+    return order ? order : strcmp(a->build, b->build);
 }
 
 static bool is_reference(const nook_result_row *row)

@@ -1,5 +1,6 @@
 /**
- * summary.h - results over cameras: one row a setting for every scene, size, r_max and falloff, and which of them are on the front.
+ * summary.h - results over cameras: one row a setting for every scene, size, r_max, falloff, machine and build, and which of
+ * them are on the front.
  */
 #pragma once
 #include "game/measure/results.h"
@@ -7,7 +8,7 @@
 /** The technique whose rows are truths, not choices: it never stands on a front. */
 #define NOOK_SUMMARY_REFERENCE "reference"
 
-/** One setting of one view (scene, size, r_max, falloff) over its cameras. */
+/** One setting of one view (scene, size, r_max, falloff, machine, build) over its cameras. */
 typedef struct nook_summary_row {
     const nook_result_row *row; /**< One of those summed up: names, setting, r_max. Borrowed. */
     uint32_t cameras;           /**< How many were. */
@@ -26,7 +27,7 @@ typedef struct nook_summary_view {
 } nook_summary_view;
 
 typedef struct nook_summary {
-    nook_summary_view *views; /**< By scene, then r_max, size, falloff. */
+    nook_summary_view *views; /**< By scene, then r_max, size, falloff, machine, build. */
     size_t view_count;
     nook_summary_row *rows; /**< Those of all views, one view after the other. */
     size_t row_count;

@@ -7,6 +7,7 @@
 #include "game/stage.h"
 #include "modules/ao_reference/reference.h"
 #include "modules/measure/noise.h"
+#include "modules/measure/ssim.h"
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
@@ -34,6 +35,7 @@ static uint64_t make_key(const nook_stage *stage, const nook_truth_desc *desc, u
 {
     const nook_camera *camera = &stage->frame.camera;
     size_t pixels = (size_t)stage->width * stage->height;
+    nook_gbuffer gbuffer = nook_renderer_gbuffer(stage->renderer); /* rays start as far off as its formats are coarse */
     const double numbers[] = { NOOK_TRUTH_VERSION,
                                NOOK_REFERENCE_VERSION,
                                stage->width,
@@ -43,6 +45,8 @@ static uint64_t make_key(const nook_stage *stage, const nook_truth_desc *desc, u
                                get(stage->ao, "ao.falloff_tau"),
                                desc->screen,
                                batch_rays,
+                               gbuffer.depth.format,
+                               gbuffer.geometric_normal.format,
                                camera->fov_y_radians,
                                camera->z_near };
     uint64_t hash = XXH3_64bits_withSeed(numbers, sizeof numbers, desc->scene_hash);
@@ -53,13 +57,35 @@ static uint64_t make_key(const nook_stage *stage, const nook_truth_desc *desc, u
 
 /* ---- Means ------------------------------------------------------------------------------------------------------ */
 
+double nook_truth_noise(const nook_truth *truth, const uint8_t *mask)
+{
+    size_t pixels = (size_t)truth->width * truth->height;
+    return nook_noise_of_mean(truth->sums[0], truth->sums[1], mask, pixels).rms / (0.5 * truth->batches);
+}
+
+nook_result nook_truth_compare_halves(const nook_truth *truth, double *out_ssim)
+{
+    size_t pixels = (size_t)truth->width * truth->height;
+    float *halves = malloc(2 * pixels * sizeof *halves);
+    nook_ssim ssim;
+    if (!halves)
+        return nook_fail(NOOK_E_MEMORY, "no memory for the halves of a truth of %zu pixels", pixels);
+    for (size_t i = 0; i < 2 * pixels; i++)
+        halves[i] = truth->sums[i / pixels][i % pixels] / (0.5f * (float)truth->batches);
+    nook_result result =
+        nook_ssim_measure(halves, halves + pixels, truth->geometry, truth->width, truth->height, &ssim);
+    free(halves);
+    if (result == NOOK_OK)
+        *out_ssim = ssim.mean;
+    return result;
+}
+
 static void update(nook_truth *truth)
 {
     size_t pixels = (size_t)truth->width * truth->height;
-    double per_half = 0.5 * truth->batches;
     for (size_t i = 0; i < pixels; i++)
         truth->values[i] = (float)(((double)truth->sums[0][i] + (double)truth->sums[1][i]) / truth->batches);
-    truth->noise = nook_noise_of_mean(truth->sums[0], truth->sums[1], truth->geometry, pixels).rms / per_half;
+    truth->noise = nook_truth_noise(truth, truth->geometry);
     truth->rays = truth->batches * truth->batch_rays;
 }
 

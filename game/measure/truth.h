@@ -49,6 +49,12 @@ typedef struct nook_truth {
 nook_result nook_truth_open(struct nook_stage *stage, const nook_truth_desc *desc, nook_truth *out_truth);
 void nook_truth_close(nook_truth *truth); /**< Zeroed ones are allowed. */
 
+/** Root mean square of its noise over some pixels; NaN when there are none. @param mask  one byte a pixel, not 0 = count */
+double nook_truth_noise(const nook_truth *truth, const uint8_t *mask);
+
+/** Mean structural similarity of its two halves. @return NOOK_E_MEMORY; *out_ssim untouched then */
+nook_result nook_truth_compare_halves(const nook_truth *truth, double *out_ssim);
+
 /**
  * Traces until the noise is at most `noise`, rays_max are taken or nook_interrupt_asked, and keeps what was traced. The stage's frame must be the
  * view's; its technique is the reference afterwards, and its frame_index as it was.

@@ -115,3 +115,8 @@ nook_result nook_ssim_measure(const float *visibility, const float *reference, c
     *out_ssim = ssim;
     return NOOK_OK;
 }
+
+double nook_ssim_ceiling(double similarity_of_halves)
+{
+    return 4.0 * similarity_of_halves / (1.0 + 3.0 * similarity_of_halves);
+}

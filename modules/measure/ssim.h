@@ -31,6 +31,14 @@ typedef struct nook_ssim {
 nook_result nook_ssim_measure(const float *visibility, const float *reference, const uint8_t *mask, uint32_t width,
                               uint32_t height, nook_ssim *out_ssim);
 
+/**
+ * What a picture without any error would have against a noisy reference, told from the SSIM of the reference's two halves.
+ * Where the truth is flat, noise of variance v is all structure there is: SSIM = C2 / (C2 + v). The reference has v, the difference of
+ * its halves 4 v, which gives 4 s / (1 + 3 s). Where the truth has structure of its own noise costs less, and more is left of both.
+ * Of a mean over windows with unlike noise it is a little high (the formula bends down).
+ */
+double nook_ssim_ceiling(double similarity_of_halves);
+
 #ifdef __cplusplus
 }
 #endif

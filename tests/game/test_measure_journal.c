@@ -9,11 +9,13 @@
 #include "tests/support/scratch.h"
 #include <math.h>
 #include <setjmp.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cmocka.h>
@@ -39,9 +41,15 @@ static nook_result_row make_row(const char *camera, const char *setting, const c
                               .sample = { .ms_median = 12.5,
                                           .gpu_ms_median = NAN,
                                           .frames = 5,
-                                          .truth = { .count = 99, .valid = true, .rmse = rmse },
+                                          .truth = { .count = 99, .valid = true, .rmse = rmse, .mae = rmse },
                                           .screen = { .rmse = NAN },
+                                          .rmse_inside = rmse,
+                                          .rmse_outside = NAN,
+                                          .rmse_away = rmse,
                                           .reference_noise = 0.001,
+                                          .noise_inside = 0.001,
+                                          .noise_outside = NAN, /* no such pixel */
+                                          .noise_away = 0.001,
                                           .reference_rays = 256 } };
 }
 
@@ -86,6 +94,9 @@ static void test_a_row_comes_back_as_it_was_kept(void **state)
     assert_ptr_equal(nook_results_find(&results, &row), read);
     row.r_max *= 1.0000001;
     assert_null(nook_results_find(&results, &row));
+    row = make_row("c", "ssao", "b", 0.25);
+    row.machine = "another";
+    assert_null(nook_results_find(&results, &row)); /* whose time it is not */
     nook_results_free(&results);
 }
 
@@ -103,6 +114,34 @@ static void test_of_two_lines_of_one_row_the_later_counts(void **state)
     assert_int_equal(results.row_count, 2);
     assert_string_equal(results.rows[0].build, "new");
     assert_true(results.rows[0].sample.truth.rmse == 0.125 && results.rows[1].sample.truth.rmse == 0.5);
+    nook_results_free(&results);
+}
+
+/* Two files called scene.gltf, or one that was edited. */
+static void test_sites_of_one_name_and_other_content_are_two(void **state)
+{
+    (void)state;
+    char folder[PATH_CAPACITY];
+    nook_journal journal;
+    nook_result_site site = { .scene = "scene.gltf",
+                              .scene_hash = "0000000000000001",
+                              .camera = "c",
+                              .falloff = "hard",
+                              .truth = "one.png",
+                              .screen = "",
+                              .geometry = "",
+                              .lit = "" };
+    assert_int_equal(nook_journal_open(make_folder(folder, "sites"), &journal), NOOK_OK);
+    assert_int_equal(nook_journal_append_site(&journal, &site), NOOK_OK);
+    site.scene_hash = "0000000000000002";
+    site.truth = "two.png";
+    assert_int_equal(nook_journal_append_site(&journal, &site), NOOK_OK);
+    nook_journal_close(&journal);
+    nook_results results = must_read(folder);
+    assert_int_equal(results.site_count, 2);
+    assert_string_equal(nook_results_find_site(&results, &site)->truth, "two.png");
+    site.scene_hash = "0000000000000001";
+    assert_string_equal(nook_results_find_site(&results, &site)->truth, "one.png");
     nook_results_free(&results);
 }
 
@@ -146,6 +185,78 @@ static void test_a_line_cut_short_is_left_out_with_a_word_and_cut_away(void **st
     nook_log_capture_end();
     assert_int_equal(results.row_count, 2);
     assert_int_equal(log.count, 0);
+    nook_results_free(&results);
+}
+
+/* As on a full disk: ten bytes are written, then no more. */
+static void test_a_line_that_finds_no_room_leaves_the_journal_as_it_was(void **state)
+{
+    (void)state;
+    char folder[PATH_CAPACITY], path[PATH_CAPACITY + 64];
+    nook_journal journal;
+    nook_log_capture log;
+    nook_file file;
+    struct rlimit before, small;
+    nook_result_row row = make_row("c", "ssao", "b", 0.25);
+    append(make_folder(folder, "full"), &row);
+    assert_int_equal(nook_file_read(nook_path_join(path, sizeof path, folder, NOOK_JOURNAL_NAME), &file), NOOK_OK);
+    size_t size = file.size;
+    nook_file_free(&file);
+    assert_int_equal(nook_journal_open(folder, &journal), NOOK_OK);
+    assert_int_equal(getrlimit(RLIMIT_FSIZE, &before), 0);
+    small = (struct rlimit){ size + 10, before.rlim_max };
+    void (*handler)(int) = signal(SIGXFSZ, SIG_IGN);
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
+    row.camera = "d";
+    nook_log_capture_begin(&log);
+    nook_result results_of[] = { nook_journal_append(&journal, &row), nook_journal_append(&journal, &row) };
+    nook_log_capture_end();
+    setrlimit(RLIMIT_FSIZE, &before);
+    signal(SIGXFSZ, handler);
+    assert_int_equal(results_of[0], NOOK_E_IO);
+    assert_int_equal(results_of[1], NOOK_E_IO);
+    assert_int_equal(journal.file, -1);
+    assert_int_equal(log.errors, 2);
+    assert_int_equal(nook_file_read(path, &file), NOOK_OK);
+    assert_int_equal(file.size, size);
+    nook_file_free(&file);
+    append(folder, &row);
+    nook_results results = must_read(folder);
+    assert_int_equal(results.row_count, 2);
+    nook_results_free(&results);
+}
+
+/* A journal may be a stranger's, and what it names is opened, copied and removed. */
+static void test_pictures_outside_of_the_folder_are_forgotten(void **state)
+{
+    (void)state;
+    char folder[PATH_CAPACITY], outside[PATH_CAPACITY + 64];
+    nook_journal journal;
+    nook_result_row row = make_row("c", "ssao", "b", 0.25);
+    make_folder(folder, "foreign");
+    row.picture = "pictures/../../outside.png";
+    append(folder, &row);
+    assert_int_equal(nook_directory_make(nook_path_join(outside, sizeof outside, folder, "pictures")), NOOK_OK);
+    nook_path_join(outside, sizeof outside, folder, row.picture);
+    assert_int_equal(nook_file_write(outside, "png", 3), NOOK_OK);
+    nook_result_site site = { .scene = "s",
+                              .scene_hash = "h",
+                              .camera = "c",
+                              .falloff = "hard",
+                              .truth = "../outside.png",
+                              .screen = "..",
+                              .geometry = outside,
+                              .lit = "pictures/a..b.png" };
+    assert_int_equal(nook_journal_open(folder, &journal), NOOK_OK);
+    assert_int_equal(nook_journal_append_site(&journal, &site), NOOK_OK);
+    nook_journal_close(&journal);
+    nook_results results = must_read(folder);
+    assert_string_equal(results.rows[0].picture, "");
+    assert_string_equal(results.sites[0].truth, "");
+    assert_string_equal(results.sites[0].screen, "");
+    assert_string_equal(results.sites[0].lit, "pictures/a..b.png");
+    if (outside[0] == '/')
+        assert_string_equal(results.sites[0].geometry, "");
     nook_results_free(&results);
 }
 
@@ -202,7 +313,7 @@ static void test_merging_takes_what_is_missing_and_what_is_newer_with_its_pictur
     (void)state;
     char ours[PATH_CAPACITY], theirs[PATH_CAPACITY], path[PATH_CAPACITY + 64];
     nook_journal journal;
-    size_t taken = 0;
+    size_t taken = 0, left = 0;
     nook_result_row rows[] = { make_row("c", "ssao", "old", 0.1), make_row("d", "ssao", "now", 0.2) };
     make_folder(ours, "ours");
     make_folder(theirs, "theirs");
@@ -217,9 +328,10 @@ static void test_merging_takes_what_is_missing_and_what_is_newer_with_its_pictur
         append(theirs, &others[i]);
     nook_results results = must_read(ours);
     assert_int_equal(nook_journal_open(ours, &journal), NOOK_OK);
-    assert_int_equal(nook_measure_merge(theirs, ours, "now", &results, &journal, &taken), NOOK_OK);
+    assert_int_equal(nook_measure_merge(theirs, ours, "now", &results, &journal, &taken, &left), NOOK_OK);
     nook_journal_close(&journal);
     assert_int_equal(taken, 2);
+    assert_int_equal(left, 1);
     nook_results_free(&results);
     results = must_read(ours); /* the journal has them too */
     assert_int_equal(results.row_count, 3);
@@ -240,9 +352,10 @@ static void test_a_folder_without_rows_cannot_be_merged(void **state)
     nook_log_capture log;
     nook_results results = { 0 };
     nook_journal journal = { .file = -1 };
-    size_t taken = 5;
+    size_t taken = 5, left = 0;
     nook_log_capture_begin(&log);
-    nook_result result = nook_measure_merge(make_folder(folder, "empty"), folder, "b", &results, &journal, &taken);
+    nook_result result =
+        nook_measure_merge(make_folder(folder, "empty"), folder, "b", &results, &journal, &taken, &left);
     nook_log_capture_end();
     assert_int_equal(result, NOOK_E_NOT_FOUND);
     assert_int_equal(taken, 5);
@@ -286,6 +399,7 @@ static void test_json_has_rows_machine_date_and_command(void **state)
     nook_results results = { 0 };
     nook_result_row row = make_row("c", "ssao", "b", 0.25);
     nook_result_site site = { .scene = "s",
+                              .scene_hash = "h",
                               .camera = "c",
                               .falloff = "hard",
                               .truth = "t.png",
@@ -322,25 +436,53 @@ static void test_results_are_believed_only_when_the_truth_is_quieter_than_a_quar
     assert_int_equal(nook_results_put(&results, &row), NOOK_OK);
     nook_measure_verdict verdict = nook_measure_judge(&results);
     assert_true(fabs(verdict.largest_part - 0.004) < 1e-15 && verdict.over == 0 && verdict.non_finite == 0);
+    assert_string_equal(verdict.worst_error, "RMSE");
     row = make_row("d", "ssao", "b", 0.003); /* 0.001 is a third of it */
     assert_int_equal(nook_results_put(&results, &row), NOOK_OK);
     verdict = nook_measure_judge(&results);
     assert_int_equal(verdict.over, 1);
     assert_string_equal(verdict.worst->camera, "d");
-    assert_false(verdict.worst_is_screen);
     row = make_row("e", "ssao", "b", NAN);
     row.sample.truth.non_finite = 3;
-    row.sample.screen = (nook_errors){ .count = 9, .valid = true, .rmse = 0.5 };
+    row.sample.screen = (nook_errors){ .count = 9, .valid = true, .rmse = 0.5, .mae = 0.5 };
     row.sample.screen_noise = 0.4;
     assert_int_equal(nook_results_put(&results, &row), NOOK_OK);
     verdict = nook_measure_judge(&results);
     assert_int_equal(verdict.over, 2);
     assert_true(isinf(verdict.largest_part) && verdict.non_finite == 3);
-    row.sample.truth = (nook_errors){ .count = 9, .valid = true, .rmse = 0.1 };
+    row.sample.truth = (nook_errors){ .count = 9, .valid = true, .rmse = 0.1, .mae = 0.1 };
+    row.sample.rmse_inside = row.sample.rmse_away = 0.1;
     assert_int_equal(nook_results_put(&results, &row), NOOK_OK);
     verdict = nook_measure_judge(&results);
-    assert_true(verdict.worst_is_screen && verdict.largest_part == 0.8);
+    assert_true(verdict.largest_part == 0.8);
+    assert_string_equal(verdict.worst_error, "RMSE against the screen's truth");
     nook_results_free(&results);
+}
+
+/* Whichever of them it is: all are told as errors. */
+static void test_every_error_is_held_against_the_noise_of_its_own_pixels(void **state)
+{
+    (void)state;
+    const char *error;
+    nook_sample sample = make_row("c", "ssao", "b", 0.25).sample;
+    assert_true(fabs(nook_measure_noise_part(&sample, false, NULL) - 0.004) < 1e-15);
+    sample.truth.mae = 0.002; /* most pixels are right */
+    assert_true(fabs(nook_measure_noise_part(&sample, false, &error) - 0.5 * sqrt(2.0 / acos(-1.0))) < 1e-12);
+    assert_string_equal(error, "MAE");
+    sample.noise_inside = 0.125;
+    assert_true(nook_measure_noise_part(&sample, false, &error) == 0.5);
+    assert_string_equal(error, "RMSE inside");
+    sample.rmse_away = 0.001;
+    assert_true(nook_measure_noise_part(&sample, false, &error) == 1.0);
+    assert_string_equal(error, "RMSE away");
+    sample.noise_outside = 0.5;
+    sample.rmse_outside = 0.25;
+    assert_true(nook_measure_noise_part(&sample, false, &error) == 2.0);
+    assert_string_equal(error, "RMSE outside");
+    sample.screen = (nook_errors){ .count = 9, .valid = true, .rmse = 0.5, .mae = 0.01 };
+    sample.screen_noise = 0.01;
+    assert_true(fabs(nook_measure_noise_part(&sample, true, &error) - sqrt(2.0 / acos(-1.0))) < 1e-12);
+    assert_string_equal(error, "MAE against the screen's truth");
 }
 
 static void test_time_left_follows_from_the_rows_that_were_measured(void **state)
@@ -360,8 +502,11 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_a_row_comes_back_as_it_was_kept),
         cmocka_unit_test(test_of_two_lines_of_one_row_the_later_counts),
+        cmocka_unit_test(test_sites_of_one_name_and_other_content_are_two),
         cmocka_unit_test(test_a_folder_without_a_journal_has_no_rows),
         cmocka_unit_test(test_a_line_cut_short_is_left_out_with_a_word_and_cut_away),
+        cmocka_unit_test(test_a_line_that_finds_no_room_leaves_the_journal_as_it_was),
+        cmocka_unit_test(test_pictures_outside_of_the_folder_are_forgotten),
         cmocka_unit_test(test_a_damaged_line_is_refused_with_its_number),
         cmocka_unit_test(test_a_folder_that_is_being_written_to_is_refused),
         cmocka_unit_test(test_merging_takes_what_is_missing_and_what_is_newer_with_its_pictures),
@@ -369,6 +514,7 @@ int main(void)
         cmocka_unit_test(test_csv_is_quoted_as_rfc_4180_says),
         cmocka_unit_test(test_json_has_rows_machine_date_and_command),
         cmocka_unit_test(test_results_are_believed_only_when_the_truth_is_quieter_than_a_quarter_of_every_error),
+        cmocka_unit_test(test_every_error_is_held_against_the_noise_of_its_own_pixels),
         cmocka_unit_test(test_time_left_follows_from_the_rows_that_were_measured),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

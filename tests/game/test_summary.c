@@ -182,6 +182,32 @@ static void test_noise_of_the_truth_stands_beside_the_smallest_error(void **stat
     nook_results_free(&results);
 }
 
+/* Times of one machine say nothing about another's, nor those of one build about another's. */
+static void test_machines_and_builds_have_fronts_of_their_own(void **state)
+{
+    (void)state;
+    nook_results results = make_results(1, 1, 4);
+    nook_summary summary;
+    nook_result_row *fast = &results.rows[0], *other = &results.rows[1];
+    fast->sample.ms_median = 1e-3; /* would beat all the others */
+    fast->sample.truth.rmse = 1e-6;
+    fast->machine[0] = 'L';
+    assert_int_equal(nook_summary_create(&results, &summary), NOOK_OK);
+    assert_int_equal(summary.view_count, 2);
+    assert_int_equal(summary.views[0].row_count, 1);
+    assert_true(nook_summary_on_front(&summary, fast));
+    size_t on_front = 0;
+    for (size_t i = 0; i < summary.views[1].row_count; i++)
+        on_front += summary.views[1].rows[i].on_front;
+    assert_true(on_front > 0);
+    nook_summary_free(&summary);
+    other->build[0] = '7';
+    assert_int_equal(nook_summary_create(&results, &summary), NOOK_OK);
+    assert_int_equal(summary.view_count, 3);
+    nook_summary_free(&summary);
+    nook_results_free(&results);
+}
+
 static void test_nothing_measured_is_no_view(void **state)
 {
     (void)state;
@@ -202,6 +228,7 @@ int main(void)
         cmocka_unit_test(test_settings_are_summed_up_over_the_cameras_of_their_view),
         cmocka_unit_test(test_truths_and_settings_that_miss_a_camera_are_on_no_front),
         cmocka_unit_test(test_noise_of_the_truth_stands_beside_the_smallest_error),
+        cmocka_unit_test(test_machines_and_builds_have_fronts_of_their_own),
         cmocka_unit_test(test_nothing_measured_is_no_view),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -136,6 +136,31 @@ static void test_random_pictures_and_masks_agree_with_the_formula_written_out(vo
     }
 }
 
+/* A picture without any error against a noisy reference, whose two halves are all that is known. */
+static void test_the_ceiling_is_what_an_exact_picture_has_against_a_noisy_reference(void **state)
+{
+    (void)state;
+    enum { SIDE = 64, COUNT = SIDE * SIDE };
+    static float exact[COUNT], halves[2][COUNT], reference[COUNT];
+    uint32_t seed = 1;
+    for (int slope = 0; slope < 2; slope++) {
+        for (int i = 0; i < COUNT; i++) {
+            exact[i] =
+                0.5f + 0.002f * (float)(slope * (i % SIDE)); /* flat, and about as much structure as there is noise */
+            for (int k = 0; k < 2; k++) {
+                seed = seed * 1664525u + 1013904223u;
+                halves[k][i] = exact[i] + 0.1f * ((float)(seed >> 8) / 16777216.0f - 0.5f);
+            }
+            reference[i] = 0.5f * (halves[0][i] + halves[1][i]);
+        }
+        double of_halves = measure(halves[0], halves[1], NULL, SIDE, SIDE).mean;
+        double actual = measure(exact, reference, NULL, SIDE, SIDE).mean;
+        if (fabs(nook_ssim_ceiling(of_halves) - actual) > 0.03 || of_halves > actual - 0.15)
+            fail_msg("halves %g, ceiling %g, actual %g", of_halves, nook_ssim_ceiling(of_halves), actual);
+    }
+    assert_true(nook_ssim_ceiling(1.0) == 1.0);
+}
+
 static void test_neither_order_nor_mirroring_matters(void **state)
 {
     (void)state;
@@ -196,6 +221,7 @@ int main(void)
         cmocka_unit_test(test_constant_pictures_differ_by_their_luminance),
         cmocka_unit_test(test_opposite_stripes_have_the_similarity_of_the_formula),
         cmocka_unit_test(test_random_pictures_and_masks_agree_with_the_formula_written_out),
+        cmocka_unit_test(test_the_ceiling_is_what_an_exact_picture_has_against_a_noisy_reference),
         cmocka_unit_test(test_neither_order_nor_mirroring_matters),
         cmocka_unit_test(test_masked_pixels_do_not_enter_any_window),
         cmocka_unit_test(test_values_that_are_not_finite_make_the_similarity_invalid),

@@ -133,7 +133,7 @@ static nook_result_row make_row(const nook_results_fixture *fixture, uint32_t sc
                                 const char *technique)
 {
     return (nook_result_row){ .scene = strdup(fixture->scenes[scene]),
-                              .scene_hash = strdup("0123456789abcdef"),
+                              .scene_hash = format_text("0123456789abcde%u", scene),
                               .camera = format_text("camera %u", camera + 1),
                               .width = fixture->width,
                               .height = fixture->height,
@@ -176,6 +176,7 @@ static void add_site(const nook_results_fixture *fixture, nook_results *results,
 {
     results->sites[results->site_count++] =
         (nook_result_site){ .scene = strdup(fixture->scenes[scene]),
+                            .scene_hash = format_text("0123456789abcde%u", scene),
                             .camera = format_text("camera %u", camera + 1),
                             .width = fixture->width,
                             .height = fixture->height,

@@ -50,6 +50,8 @@ const columns = [
   { key: "max", group: "truth", label: "max", format: fixed(3), of: value => value, about: "The largest difference of any pixel." },
   { key: "ssim", group: "truth", label: "SSIM", format: fixed(4), of: value => 1 - value, of_label: "1 - SSIM",
     about: "Mean structural similarity with the truth: 1 is equal." },
+  { key: "ssim_ceiling", group: "truth", label: "SSIM ceiling", format: fixed(4),
+    about: "About the SSIM that a picture without any error would have: the truth's own noise lowers it." },
   { key: "screen_rmse", group: "screen", label: "RMSE", format: fixed(4), of: value => value, of_label: "RMSE, depth buffer",
     about: "RMSE against rays through only what the depth buffer shows: the estimator's own error, without geometry that the screen does not hold." },
   { key: "screen_bias", group: "screen", label: "bias", format: signed(4), of: Math.abs, of_label: "|bias|, depth buffer",

@@ -33,23 +33,36 @@ function describe_reach(row) {
   return [describe_r_max(row), row.falloff, describe_size(row)].join(", ");
 }
 
-// One name with changed content is another scene; which of them a site's pictures show is not known, so neither gets them.
+// One name with changed content is another scene.
 const hashes_of = new Map();
 for (const row of rows) hashes_of.set(row.scene, (hashes_of.get(row.scene) || new Set()).add(row.scene_hash));
-for (const row of rows.filter(row => hashes_of.get(row.scene).size > 1)) row.scene += ` (content ${row.scene_hash.slice(0, 4)})`;
+for (const place of [...rows, ...report.sites].filter(place => (hashes_of.get(place.scene) || []).size > 1))
+  place.scene += ` (content ${place.scene_hash.slice(0, 4)})`;
+
+// Times of two machines, or of two builds, have nothing to do with each other: where there are several, each is a reach of its own.
+const origin_of = row => row.machine + "\n" + row.build;
+const origins = unique(rows.map(origin_of));
+
+function describe_origin(row) {
+  return origins.length > 1 ? [`origin ${origins.indexOf(origin_of(row)) + 1}: ${row.machine}, build ${row.build.slice(0, 4)}`] : [];
+}
 
 const many_falloffs = unique(rows.map(row => row.falloff)).length > 1, many_sizes = unique(rows.map(describe_size)).length > 1;
 
-function reach_key(place) {
-  return [place.r_max, place.falloff, place.width, place.height].join(" ");
+function place_key(place) {
+  return [place.scene_hash, place.r_max, place.falloff, place.width, place.height, place.camera].join("\n");
+}
+
+function reach_key(row) {
+  return [row.r_max, row.falloff, row.width, row.height, origins.indexOf(origin_of(row))].join(" ");
 }
 
 for (const [index, row] of rows.entries()) {
   row.index = index;
   for (const [column, number] of report.columns.entries())
     row[number.key] = row.numbers[column] === null ? NaN : row.numbers[column];
-  row.reach = describe_reach(row);
-  row.short_reach = [describe_r_max(row), ...(many_falloffs ? [row.falloff] : []), ...(many_sizes ? [describe_size(row)] : [])].join(", ");
+  row.reach = [describe_reach(row), ...describe_origin(row)].join(", ");
+  row.short_reach = [describe_r_max(row), ...(many_falloffs ? [row.falloff] : []), ...(many_sizes ? [describe_size(row)] : []), ...describe_origin(row).map(text => text.split(":")[0])].join(", ");
   row.reach_key = reach_key(row);
   row.view = row.scene + "\n" + row.reach_key;
   row.words = [row.setting, row.scene, row.camera, row.reach].join(" ").toLowerCase();
@@ -64,10 +77,10 @@ function technique_index(technique) {
   return index >= 0 ? index : familiar_techniques.length + techniques.filter(other => !familiar_techniques.includes(other)).indexOf(technique);
 }
 
-const site_of = new Map(report.sites.map(site => [[site.scene, reach_key(site), site.camera].join("\n"), site]));
+const site_of = new Map(report.sites.map(site => [place_key(site), site]));
 
 function site_of_row(row) {
-  return site_of.get(row.view + "\n" + row.camera);
+  return site_of.get(place_key(row));
 }
 
 // One number for several cameras: their mean, RMS or largest; cameras without one are left out.

@@ -34,8 +34,7 @@ function draw_extremes(scene, go) {
 
 // As measured when the reference itself was restricted to the depth buffer, else from the two truths' pictures (8 bits a pixel).
 async function measure_screen(site) {
-  const place = site.scene + "\n" + reach_key(site);
-  const measured = rows.find(row => row.technique === reference_technique && row.setting.includes("sees=screen") && row.view === place && row.camera === site.camera);
+  const measured = rows.find(row => row.technique === reference_technique && row.setting.includes("sees=screen") && site_of_row(row) === site);
   if (measured) return { rmse: measured.rmse, bias: measured.bias, mae: measured.mae, p99: measured.p99, max: measured.max };
   if (!has_picture(site.truth) || !has_picture(site.screen)) return null;
   const [screen, truth, mask] = await Promise.all([read_picture(site.screen), read_picture(site.truth), read_site_picture(site, "geometry")]);
@@ -76,6 +75,5 @@ async function draw_screen_errors(scene, is_current) {
 
 // A site knows no part of the diagonal; its rows do.
 function describe_site(site) {
-  const row = rows.find(candidate => candidate.scene === site.scene && candidate.reach_key === reach_key(site));
-  return row ? row.reach : describe_reach({ ...site, r_max_part: 0 });
+  return describe_reach(rows.find(row => site_of_row(row) === site) || { ...site, r_max_part: 0 });
 }

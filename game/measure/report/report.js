@@ -74,7 +74,8 @@ function go(row) {
 // ---- drawing ----
 
 function sites_of_choice() {
-  return report.sites.filter(site => site.scene === choice.scene && reach_key(site) === choice.reach && (choice.camera === "" || site.camera === choice.camera));
+  const seen = new Set(rows.filter(row => row.scene === choice.scene && row.reach_key === choice.reach && (choice.camera === "" || row.camera === choice.camera)).map(site_of_row));
+  return report.sites.filter(site => seen.has(site));
 }
 
 async function draw_charts() {
