@@ -7,17 +7,20 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Half a step of an 8-bit picture: what no display shows. */
-static const double UNSEEN = 0.5 / 255.0;
 static const double R_MAX = 0.8, FARTHEST = 6.5; /* of the usual scene: its reach, and where its farthest wall is */
 static const double PI = 3.14159265358979323846;
+
+static uint32_t side_of(const nook_extremes *extremes)
+{
+    return extremes->quick ? 24 : 48;
+}
 
 nook_result nook_buffer_take(const nook_extremes *extremes, const nook_edge_scene_desc *desc, nook_extreme_found *found,
                              const char *where, nook_edge_pictures *out_pictures)
 {
     nook_edge_scene scene;
     nook_edge_scene_desc sized = *desc;
-    sized.width = sized.height = extremes->quick ? 24 : 48;
+    sized.width = sized.height = side_of(extremes);
     nook_result result = nook_edge_scene_make(extremes, &sized, &scene);
     if (result != NOOK_OK)
         return result;
@@ -61,19 +64,30 @@ static nook_result compare_with_best(const nook_extremes *extremes, const nook_e
 
 /* ---- Depth ---- */
 
-/**
- * What an error of depth may cost: the wall at distance x from a point has A = (acos k - k sqrt(1 - k^2)) / pi, k = x / r_max
- * (fixture 5), which changes by at most 2 / (pi r_max) per unit of x.
- * @param step  of device depth, about 1; 0 for reversed floats
- */
-static double cost_of_depth(double step, double z_near)
+/* A depth that is off may turn a ray. Less is not seen of rays: one of 16 in one pixel of the picture. */
+static double cost_of_a_ray(const nook_extremes *extremes)
 {
-    return UNSEEN + 2.0 / (PI * R_MAX) * 2.0 * step * FARTHEST * FARTHEST / z_near;
+    return 1.0 / (16.0 * side_of(extremes));
+}
+
+/**
+ * What an error of distance may cost: the wall at distance x from a point has A = (acos k - k sqrt(1 - k^2)) / pi, k = x / r_max
+ * (fixture 5), which changes by at most 2 / (pi r_max) per unit of x. Point and wall may be off both.
+ */
+static double cost_of_distance(double off)
+{
+    return 2.0 / (PI * R_MAX) * 2.0 * off;
+}
+
+/** @param step  of device depth, about 1 */
+static double cost_of_depth(const nook_extremes *extremes, double step, double z_near)
+{
+    return cost_of_a_ray(extremes) + cost_of_distance(step * FARTHEST * FARTHEST / z_near);
 }
 
 static nook_result run_float_reversed(const nook_extremes *extremes, nook_extreme_found *out_found)
 {
-    out_found->bound = cost_of_depth(0.0, 1e-6);
+    out_found->bound = cost_of_distance(0x1p-24 * FARTHEST);
     return compare_with_best(extremes, &(nook_edge_scene_desc){ .z_near = 1e-6, .depth_format = GL_DEPTH_COMPONENT32F },
                              out_found);
 }
@@ -83,13 +97,13 @@ static nook_result run_float_normal(const nook_extremes *extremes, nook_extreme_
     const nook_edge_scene_desc desc = {
         .z_near = 1e-3, .z_far = 1e3, .normal_z = true, .depth_format = GL_DEPTH_COMPONENT32F
     };
-    out_found->bound = cost_of_depth(0x1p-24, desc.z_near);
+    out_found->bound = cost_of_depth(extremes, 0x1p-24, desc.z_near);
     return compare_with_best(extremes, &desc, out_found);
 }
 
 static nook_result run_24_reversed(const nook_extremes *extremes, nook_extreme_found *out_found)
 {
-    out_found->bound = cost_of_depth(0x1p-24, 0.1);
+    out_found->bound = cost_of_depth(extremes, 0x1p-24, 0.1);
     return compare_with_best(extremes, &(nook_edge_scene_desc){ .depth_format = GL_DEPTH_COMPONENT24 }, out_found);
 }
 
@@ -98,7 +112,7 @@ static nook_result run_24_normal(const nook_extremes *extremes, nook_extreme_fou
     const nook_edge_scene_desc desc = {
         .z_near = 0.1, .z_far = 100.0, .normal_z = true, .depth_format = GL_DEPTH_COMPONENT24
     };
-    out_found->bound = cost_of_depth(0x1p-24, desc.z_near);
+    out_found->bound = cost_of_depth(extremes, 0x1p-24, desc.z_near);
     return compare_with_best(extremes, &desc, out_found);
 }
 
@@ -107,7 +121,7 @@ static nook_result run_24_near(const nook_extremes *extremes, nook_extreme_found
     const nook_edge_scene_desc desc = {
         .z_near = 1e-3, .z_far = 1e3, .normal_z = true, .depth_format = GL_DEPTH_COMPONENT24
     };
-    out_found->bound = cost_of_depth(0x1p-24, desc.z_near);
+    out_found->bound = cost_of_depth(extremes, 0x1p-24, desc.z_near);
     return compare_with_best(extremes, &desc, out_found);
 }
 
@@ -116,13 +130,13 @@ static nook_result run_16_normal(const nook_extremes *extremes, nook_extreme_fou
     const nook_edge_scene_desc desc = {
         .z_near = 0.1, .z_far = 100.0, .normal_z = true, .depth_format = GL_DEPTH_COMPONENT16
     };
-    out_found->bound = cost_of_depth(0x1p-16, desc.z_near);
+    out_found->bound = cost_of_depth(extremes, 0x1p-16, desc.z_near);
     return compare_with_best(extremes, &desc, out_found);
 }
 
 static nook_result run_16_reversed(const nook_extremes *extremes, nook_extreme_found *out_found)
 {
-    out_found->bound = cost_of_depth(0x1p-16, 0.1);
+    out_found->bound = cost_of_depth(extremes, 0x1p-16, 0.1);
     return compare_with_best(extremes, &(nook_edge_scene_desc){ .depth_format = GL_R16 }, out_found);
 }
 
@@ -131,7 +145,7 @@ static nook_result run_16_reversed(const nook_extremes *extremes, nook_extreme_f
 /** A normal turned by an angle changes A by at most half of it: 1/pi times the integral of max(0, sin cos) over the hemisphere. */
 static double cost_of_normals(double step)
 {
-    return UNSEEN + 0.5 * 0.5 * sqrt(18.0) * step;
+    return 0.5 * 0.5 * sqrt(18.0) * step;
 }
 
 static nook_result run_16f(const nook_extremes *extremes, nook_extreme_found *out_found)
@@ -149,52 +163,53 @@ static nook_result run_8(const nook_extremes *extremes, nook_extreme_found *out_
 static const nook_extreme cases[] = {
     { .name = "depth of 32 bit float, reversed, near plane 1e-6",
       .unit = "RMS of visibility",
-      .why = "Its step is a share of the distance, whatever the near plane: half a step of an 8-bit display.",
+      .why = "Its step is a share of the distance, whatever the near plane: 2/pi of half of one by r_max, of point and "
+             "wall.",
       .run = run_float_reversed },
     { .name = "depth of 32 bit float, normal, near plane 0.001, far 1000",
       .unit = "RMS of visibility",
-      .why = "Half a step of a display, and 2/pi of the depth's error by r_max: how A of a wall changes with its "
+      .why = "One ray of 16 in one pixel, and 2/pi of the depth's error by r_max: how A of a wall changes with its "
              "distance.",
       .run = run_float_normal },
     { .name = "depth of 24 bits, reversed, near plane 0.1",
       .unit = "RMS of visibility",
-      .why = "Half a step of a display, and 2/pi of the depth's error by r_max: how A of a wall changes with its "
+      .why = "One ray of 16 in one pixel, and 2/pi of the depth's error by r_max: how A of a wall changes with its "
              "distance.",
       .run = run_24_reversed },
     { .name = "depth of 24 bits, normal, near plane 0.1, far 100",
       .unit = "RMS of visibility",
-      .why = "Half a step of a display, and 2/pi of the depth's error by r_max: how A of a wall changes with its "
+      .why = "One ray of 16 in one pixel, and 2/pi of the depth's error by r_max: how A of a wall changes with its "
              "distance.",
       .run = run_24_normal },
     { .name = "depth of 24 bits, normal, near plane 0.001, far 1000",
       .unit = "RMS of visibility",
-      .why = "Half a step of a display, and 2/pi of the depth's error by r_max: how A of a wall changes with its "
+      .why = "One ray of 16 in one pixel, and 2/pi of the depth's error by r_max: how A of a wall changes with its "
              "distance.",
       .run = run_24_near },
     { .name = "depth of 16 bits, normal, near plane 0.1, far 100",
       .unit = "RMS of visibility",
-      .why = "Half a step of a display, and 2/pi of the depth's error by r_max: how A of a wall changes with its "
+      .why = "One ray of 16 in one pixel, and 2/pi of the depth's error by r_max: how A of a wall changes with its "
              "distance.",
       .limit = "16 bit depth: an RMS of 0.005 at distances of 65 near planes; it grows with their square.",
       .run = run_16_normal },
     { .name = "depth of 16 bits, reversed, near plane 0.1",
       .unit = "RMS of visibility",
-      .why = "Half a step of a display, and 2/pi of the depth's error by r_max: how A of a wall changes with its "
+      .why = "One ray of 16 in one pixel, and 2/pi of the depth's error by r_max: how A of a wall changes with its "
              "distance.",
       .limit = "16 bit depth: an RMS of 0.005 at distances of 65 near planes; it grows with their square.",
       .run = run_16_reversed },
     { .name = "normals of 16 bit float",
       .unit = "RMS of visibility",
-      .why = "Half a step of a display, and half of the largest turn of a normal.",
+      .why = "Half of the largest turn of a normal.",
       .run = run_16f },
     { .name = "normals of 8 bits",
       .unit = "RMS of visibility",
-      .why = "Half a step of a display, and half of the largest turn of a normal: 1 degree.",
+      .why = "Half of the largest turn of a normal: 1 degree.",
       .limit = "8 bit normals: an RMS of up to 0.008, and a floor may lean by a third of a degree.",
       .run = run_8 },
     { .name = "no normals, rebuilt from depth: the same away from edges",
       .unit = "RMS of visibility",
-      .why = "On a plane the slope of depth is the normal; half a step of an 8-bit display is not seen.",
+      .why = "On a plane the slope of depth is the normal: half of half a step of its 16 bits.",
       .limit = "no normals: pixels at edges take a neighbour's; an RMS of 0.04 in a small picture with many edges.",
       .run = nook_buffer_run_no_normals },
     { .name = "rows from the top by a flipped projection: no more apart than seeds are",

@@ -46,12 +46,12 @@ static void shift_and_scale(nook_fixture_mesh *mesh, const double by[3], double 
         mesh->positions[i] = (float)(mesh->positions[i] * scale + by[i % 3]);
 }
 
-static void append(nook_fixture_mesh *mesh, const nook_fixture_mesh *part)
+static void append_placed(nook_fixture_mesh *mesh, const nook_fixture_mesh *part, const double place[3], double scale)
 {
     for (uint32_t i = 0; i < part->index_count; i += 3) {
         double corner[3][3];
         for (uint32_t k = 0; k < 9; k++)
-            corner[k / 3][k % 3] = part->positions[part->indices[i + k / 3] * 3 + k % 3];
+            corner[k / 3][k % 3] = part->positions[part->indices[i + k / 3] * 3 + k % 3] * scale + place[k % 3];
         nook_fixture_add_triangle(mesh, corner[0], corner[1], corner[2]);
     }
 }
@@ -61,20 +61,18 @@ static nook_result add_body(nook_edge_scene *scene, const nook_edge_scene_desc *
 {
     const double vertex_scale = or_usual(desc->vertex_scale, 1.0), matrix_scale = or_usual(desc->matrix_scale, 1.0);
     const double still[4] = { 0, 0, 0, 1 }, scale[3] = { matrix_scale, matrix_scale, matrix_scale };
-    nook_fixture_mesh mesh = { 0 };
+    nook_fixture_mesh *mesh = &scene->bodies[body];
     double back[3], place[3], voxel_size;
     for (int axis = 0; axis < 3; axis++) {
-        back[axis] = -places[body][axis] * vertex_scale;
-        place[axis] = places[body][axis] * scene->scale;
+        back[axis] = desc->vertex_offset[axis] - places[body][axis] * vertex_scale;
+        place[axis] = places[body][axis] * scene->scale - desc->vertex_offset[axis] * matrix_scale;
     }
     const nook_matrix world_from_mesh = nook_matrix_compose(place, still, scale);
-    build_body(body, &mesh);
-    shift_and_scale(&mesh, back, vertex_scale);
+    build_body(body, mesh);
+    shift_and_scale(mesh, back, vertex_scale);
     nook_result result = nook_fixture_view_add(
-        scene->view, &mesh, desc->resolution ? desc->resolution : RESOLUTION_USUAL, &world_from_mesh, &voxel_size);
-    shift_and_scale(&mesh, place, matrix_scale);
-    append(&scene->world, &mesh);
-    nook_fixture_mesh_free(&mesh);
+        scene->view, mesh, desc->resolution ? desc->resolution : RESOLUTION_USUAL, &world_from_mesh, &voxel_size);
+    append_placed(&scene->world, mesh, place, matrix_scale);
     if (result == NOOK_OK)
         scene->voxel_size = fmax(scene->voxel_size, voxel_size * matrix_scale);
     return result;
@@ -185,6 +183,8 @@ void nook_edge_scene_free(nook_edge_scene *scene)
 {
     nook_fixture_view_destroy(scene->view);
     nook_fixture_mesh_free(&scene->world);
+    for (int body = 0; body < NOOK_EDGE_BODIES; body++)
+        nook_fixture_mesh_free(&scene->bodies[body]);
     *scene = (nook_edge_scene){ 0 };
 }
 

@@ -13,6 +13,7 @@ typedef struct nook_edge_scene_desc {
     uint32_t resolution;                /**< Voxels along a body's longest side; 0: 64. */
     double vertex_scale;                /**< The vertices are multiplied by it; 0: 1. */
     double matrix_scale;                /**< World_from_mesh is multiplied by it; 0: 1. */
+    double vertex_offset[3];            /**< Vertices are that far from their mesh's origin; matrices take them back. */
     double z_near, z_far;               /**< Before scaling; 0: 0.1 and infinite. */
     bool normal_z;                      /**< Depth 0 is near; else reversed. */
     bool rows_down;                     /**< Row 0 is the top row: a flipped projection. */
@@ -27,11 +28,12 @@ enum { NOOK_EDGE_BODIES = 4 };
 
 typedef struct nook_edge_scene {
     nook_fixture_view *view;
-    nook_fixture_mesh world; /**< All bodies at their places, before any nook_edge_scene_move. */
-    size_t pixels;           /**< Of the view. */
-    double scale;            /**< World units per unit of the usual scene. */
-    double diagonal;         /**< World units. */
-    double voxel_size;       /**< Of the coarsest volume, world units. */
+    nook_fixture_mesh world;                    /**< All bodies at their places, before any nook_edge_scene_move. */
+    nook_fixture_mesh bodies[NOOK_EDGE_BODIES]; /**< As they were baked; their matrices are in view->occluders. */
+    size_t pixels;                              /**< Of the view. */
+    double scale;                               /**< World units per unit of the usual scene. */
+    double diagonal;                            /**< World units. */
+    double voxel_size;                          /**< Of the coarsest volume, world units. */
 } nook_edge_scene;
 
 /**

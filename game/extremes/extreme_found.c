@@ -5,7 +5,8 @@
 
 bool nook_extreme_holds(const nook_extreme_found *found)
 {
-    return found->measured <= found->bound && found->outside == 0; /* false for NaN */
+    bool looked = found->where[0] != '\0' || found->checked > 0;
+    return looked && found->measured <= found->bound && found->outside == 0; /* false for NaN */
 }
 
 void nook_extreme_worst(nook_extreme_found *found, double value, const char *format, ...)

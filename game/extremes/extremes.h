@@ -49,7 +49,7 @@ typedef struct nook_extreme_group {
 /** Every group, in the order of the table. @param out_count  groups */
 const nook_extreme_group *const *nook_extreme_groups(size_t *out_count);
 
-/** measured <= bound (a NaN is not) and nothing outside. */
+/** Something was looked at, measured <= bound (a NaN is not) and nothing outside. */
 bool nook_extreme_holds(const nook_extreme_found *found);
 
 /* ---- For cases ---- */

@@ -388,7 +388,7 @@ static const nook_extreme cases[] = {
       .unit = "visibility beyond",
       .why = "weights are not negative; one rounding of 1.2e-7",
       .run = run_mixtures },
-    { .name = "half and quarter scale give the picture of full scale",
+    { .name = "half and quarter scale keep a ramp on a leaning plane in its place",
       .unit = "trace pixels",
       .why =
           "a ramp moves by no more than half a trace pixel, as samples are whole ones, and 0.1 by their uneven number",

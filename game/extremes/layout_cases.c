@@ -8,7 +8,8 @@
 
 /* ---- No normals ---- */
 
-static const double UNSEEN = 0.5 / 255.0;
+/* What half a step of 16 bits turns a normal by changes A by half: cost_of_normals of buffer_cases.c. */
+static const double HALF_A_CODE = 0.5 * 0.5 * 4.2427 * 2.0 / 65535.0;
 enum { AROUND = 3 }; /* pixels: 2 of the filter, 1 of the slope */
 
 /** View position and normal of a pixel. @return false for background */
@@ -85,7 +86,7 @@ nook_result nook_buffer_run_no_normals(const nook_extremes *extremes, nook_extre
     const nook_ao_technique *const *techniques = nook_techniques(&count);
     nook_edge_scene scene;
     double whole = 0.0;
-    out_found->bound = UNSEEN;
+    out_found->bound = HALF_A_CODE;
     nook_result result = nook_edge_scene_make(extremes, &(nook_edge_scene_desc){ 0 }, &scene);
     if (result != NOOK_OK)
         return result;

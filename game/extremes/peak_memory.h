@@ -1,17 +1,24 @@
 /**
- * peak_memory.h - how much memory a piece of work took at its worst: of the whole process, as the kernel counts it.
+ * peak_memory.h - how much memory a piece of work took at its worst: it runs in a process of its own, which the kernel counts.
  */
 #pragma once
+#include "engine/core/result.h"
+#include <stddef.h>
 #include <stdint.h>
 
-typedef struct nook_peak_memory {
-    uint64_t before; /**< Bytes, resident or at their peak. */
-} nook_peak_memory;
+/** The most that this process ever had resident, bytes; in a child its own, from what it was born with. @return NOOK_E_IO */
+nook_result nook_peak_memory_read(uint64_t *out_bytes);
+
+/** Bytes of growth as the program would take them: under AddressSanitizer an eighth more is kept beside all that is touched. */
+uint64_t nook_peak_memory_ours(uint64_t growth);
+
+/** Fills `out`, which starts as zero. */
+typedef nook_result (*nook_child_work)(const void *user, void *out);
 
 /**
- * Forgets the peak so far. Where the kernel does not let one (it wants /proc/self/clear_refs), growth is measured from the
- * old peak and may be too small, never too large.
+ * Runs `work` in a copy of this process and brings its answer back. It must not use the GPU, and nothing it does is seen here but
+ * `out`. Memory that is free is given back before, so that the child cannot take it unseen.
+ * @param out  plain bytes, untouched on failure
+ * @return what `work` returns; NOOK_E_IO no process can be made; NOOK_E_MEMORY it ended without an answer
  */
-nook_peak_memory nook_peak_memory_begin(void);
-/** Bytes by which the peak since then exceeds what was resident; 0 where the system does not tell. */
-uint64_t nook_peak_memory_growth(const nook_peak_memory *begun);
+nook_result nook_run_in_child(nook_child_work work, const void *user, void *out, size_t out_size);

@@ -166,7 +166,7 @@ static nook_result run_floors(const nook_extremes *extremes, nook_extreme_found 
 
 /* ---- More of everything ----------------------------------------------------------------------------------------- */
 
-/* What more of should mean less error, up to at least thirty times what people use. */
+/* What more of should come nearer to what the most of it gives, up to at least thirty times what people use. */
 typedef struct series {
     const char *technique, *number, *others;
     uint32_t most, most_quick;
@@ -202,17 +202,17 @@ static nook_result record(nook_edge_scene *scene, const series *s, uint32_t numb
 }
 
 /* RMS to the picture of the most, for 1, 4, 16, ... */
-static nook_result look_at_series(nook_edge_scene *scene, const series *s, uint32_t most, float *truth,
+static nook_result look_at_series(nook_edge_scene *scene, const series *s, uint32_t most, float *own_limit,
                                   nook_extreme_found *found)
 {
     nook_result result = record(scene, s, most, found);
     if (result != NOOK_OK)
         return result;
     double before = INFINITY;
-    memcpy(truth, scene->view->visibility, scene->pixels * sizeof *truth);
+    memcpy(own_limit, scene->view->visibility, scene->pixels * sizeof *own_limit);
     for (uint32_t number = 1; number < most && result == NOOK_OK; number *= 4) {
         result = record(scene, s, number, found);
-        double rms = nook_edge_rms(scene->view->visibility, truth, scene->pixels);
+        double rms = nook_edge_rms(scene->view->visibility, own_limit, scene->pixels);
         if (result == NOOK_OK)
             nook_extreme_worst(found, fmax(rms - before, 0.0), "%s %s=%u%s: RMS %.4f, of %u %.4f", s->technique,
                                s->number, number, s->others, rms, number / 4, before);
@@ -229,15 +229,15 @@ static nook_result run_growing(const nook_extremes *extremes, nook_extreme_found
         nook_edge_scene_make(extremes, &(nook_edge_scene_desc){ .width = side, .height = side }, &scene);
     if (result != NOOK_OK)
         return result;
-    float *truth = malloc(scene.pixels * sizeof *truth);
-    if (!truth)
+    float *own_limit = malloc(scene.pixels * sizeof *own_limit);
+    if (!own_limit)
         result = nook_fail(NOOK_E_MEMORY, "extremes: no room for a picture");
     for (size_t i = 0; i < NOOK_COUNT(growing) && result == NOOK_OK; i++) {
         const series *s = &growing[i];
-        result = look_at_series(&scene, s, extremes->quick ? s->most_quick : s->most, truth, out_found);
+        result = look_at_series(&scene, s, extremes->quick ? s->most_quick : s->most, own_limit, out_found);
         nook_extreme_progress(extremes, (double)(i + 1) / NOOK_COUNT(growing));
     }
-    free(truth);
+    free(own_limit);
     nook_edge_scene_free(&scene);
     return result;
 }
@@ -340,9 +340,10 @@ static const nook_extreme cases[] = {
       .unit = "A",
       .why = "rays start above all that the floor's own voxels reach (C7): exactly 0 at every tilt and phase",
       .run = run_floors },
-    { .name = "four times the rays, steps or samples never mean more error, for any technique",
+    { .name = "four times the rays, steps or samples come nearer to the technique's own limit",
       .unit = "RMS gained",
-      .why = "against the most that is allowed; random error would halve, so none may be gained",
+      .why =
+          "RMS to the picture of the most of them, not to the truth; random error would halve, so none may be gained",
       .run = run_growing },
     { .name = "every parameter of every technique holds at its lowest and its highest value",
       .unit = "pixels outside [0, 1]",

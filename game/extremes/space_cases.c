@@ -2,11 +2,9 @@
 #include "game/extremes/edge_pictures.h"
 #include "game/extremes/float_formulas.h"
 #include "game/extremes/groups.h"
+#include "game/extremes/space_internal.h"
 #include <math.h>
 #include <stdio.h>
-
-/* Half a step of an 8-bit picture: what no display shows. */
-static const double UNSEEN = 0.5 / 255.0;
 
 /* ---- Scale ---- */
 
@@ -61,11 +59,11 @@ static nook_result run_powers_of_two(const nook_extremes *extremes, nook_extreme
 static nook_result run_decimal_scales(const nook_extremes *extremes, nook_extreme_found *out_found)
 {
     const double all[] = { 1e-6, 1e6, 1e-4, 1e-2, 100.0, 1e4 };
-    out_found->bound = UNSEEN;
+    out_found->bound = 16.0 * 0x1p-24;
     return compare_scales(extremes, all, extremes->quick ? 2 : NOOK_COUNT(all), nook_edge_rms, out_found);
 }
 
-/* ---- Place ---- */
+/* ---- Turned: the G-buffer is carried along, as the renderer takes rigid cameras only ---- */
 
 /** A rigid or mirrored way to carry scene and camera elsewhere. */
 typedef struct space_move {
@@ -100,19 +98,6 @@ static nook_result compare_moved(const nook_extremes *extremes, const space_move
     return result;
 }
 
-static nook_result run_moved(const nook_extremes *extremes, nook_extreme_found *out_found)
-{
-    static const double offsets[] = { 1e7, 1e3, 1e4, 1e5, 1e6 };
-    space_move moves[NOOK_COUNT(offsets)];
-    for (size_t i = 0; i < NOOK_COUNT(offsets); i++) {
-        const double offset = offsets[i] + 0.123; /* which no float holds */
-        moves[i].matrix = nook_matrix_translation(offset, -0.7 * offset, 0.3 * offset);
-        snprintf(moves[i].name, sizeof moves[i].name, "%g units off", offsets[i]);
-    }
-    out_found->bound = UNSEEN;
-    return compare_moved(extremes, moves, extremes->quick ? 2 : NOOK_COUNT(offsets), out_found);
-}
-
 static nook_result run_turned(const nook_extremes *extremes, nook_extreme_found *out_found)
 {
     const double here[3] = { 0, 0, 0 }, far[3] = { 1e7, -3e6, 1e6 }, one[3] = { 1, 1, 1 }, mirrored[3] = { -1, 1, 1 };
@@ -120,7 +105,7 @@ static nook_result run_turned(const nook_extremes *extremes, nook_extreme_found 
     const space_move moves[] = { { "turned and mirrored, 1e7 units off", nook_matrix_compose(far, turn, mirrored) },
                                  { "mirrored", nook_matrix_compose(here, still, mirrored) },
                                  { "turned", nook_matrix_compose(here, turn, one) } };
-    out_found->bound = UNSEEN;
+    out_found->bound = 0.5 * 0.5 * sqrt(18.0) * 2.0 / 65535.0;
     return compare_moved(extremes, moves, extremes->quick ? 1 : NOOK_COUNT(moves), out_found);
 }
 
@@ -183,15 +168,31 @@ static const nook_extreme cases[] = {
       .run = run_powers_of_two },
     { .name = "a scene scaled from 1e-6 to 1e6, r_max with it, is the same picture",
       .unit = "RMS of visibility",
-      .why = "Rounded scales move single rays; half a step of an 8-bit display is not seen.",
+      .why =
+          "Depths, matrices and sums round each their way: 16 roundings of 6e-8, and no ray that hits another thing.",
       .run = run_decimal_scales },
-    { .name = "a scene moved by 1e3 to 1e7 units, the camera with it, is the same picture",
+    { .name = "nodes 1e3 to 1e7 units off, the camera with them: the renderer draws the same G-buffer",
+      .unit = "steps of its formats",
+      .why = "view_from_mesh is composed in double, 2e-9 off at 1e7: one of its floats may round the other way.",
+      .run = nook_space_run_drawn },
+    { .name = "nodes 1e3 to 1e7 units off, drawn by the renderer: every technique's picture is the same",
       .unit = "RMS of visibility",
-      .why = "In double a place 1e7 units off is known to 2e-9: a 30th of a float's step at one unit.",
-      .run = run_moved },
-    { .name = "a scene turned and mirrored, the camera with it, is the same picture",
+      .why = "One step of depth: 3 times the 2e-6 that vertices 1 unit off, whose depth is 5 steps off, cost.",
+      .run = nook_space_run_drawn_pictures },
+    { .name = "vertices 1 to 1e6 units off their mesh's origin are drawn a few float steps off",
+      .unit = "float steps",
+      .why = "Half a step for each rounded coordinate, product and sum: 3 for most pixels, whatever the offset.",
+      .run = nook_space_run_far_vertices },
+    { .name = "vertices up to 100 units off their mesh's origin, surfaces 2 to 6.5 away: the same picture",
       .unit = "RMS of visibility",
-      .why = "Turned normals are coded anew, half a step of 16 bits: less than half a step of an 8-bit display.",
+      .why = "Depths 1e-5 off turn single rays: one of 16 in one pixel of 48 x 48. Where: what more costs.",
+      .limit = "Vertices are floats: more than 100 units off their mesh's origin the reference's rays start inside "
+               "surfaces (RMS 0.4 at 1e3), at 1e4 volumes are 0.01 off, at 1e7 a vertex moves by a unit. Nodes may be "
+               "anywhere.",
+      .run = nook_space_run_far_vertices_pictures },
+    { .name = "a scene turned and mirrored, its G-buffer and camera with it, is the same picture",
+      .unit = "RMS of visibility",
+      .why = "Normals are coded anew: half a step of 16 bits turns them by 6e-5 radians, A changes by half of that.",
       .run = run_turned },
     { .name = "a visible point's voxel by our float arithmetic, up to 1e7 units off",
       .unit = "voxels of 256",

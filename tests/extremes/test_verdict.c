@@ -13,28 +13,37 @@
 static void test_what_is_within_its_bound_holds(void **state)
 {
     (void)state;
-    assert_true(nook_extreme_holds(&(nook_extreme_found){ .measured = 0.5, .bound = 0.5 }));
-    assert_true(nook_extreme_holds(&(nook_extreme_found){ .measured = 0.0, .bound = 0.0 }));
+    assert_true(nook_extreme_holds(&(nook_extreme_found){ .measured = 0.5, .bound = 0.5, .where = "here" }));
+    assert_true(nook_extreme_holds(&(nook_extreme_found){ .measured = 0.0, .bound = 0.0, .checked = 1 }));
+}
+
+static void test_what_looked_at_nothing_does_not_hold(void **state)
+{
+    (void)state;
+    assert_false(nook_extreme_holds(&(nook_extreme_found){ .measured = 0.0, .bound = 0.0 }));
+    assert_false(nook_extreme_holds(&(nook_extreme_found){ .measured = 0.0, .bound = 1.0 }));
 }
 
 static void test_more_than_the_bound_does_not_hold(void **state)
 {
     (void)state;
-    assert_false(nook_extreme_holds(&(nook_extreme_found){ .measured = nextafter(0.5, 1.0), .bound = 0.5 }));
-    assert_false(nook_extreme_holds(&(nook_extreme_found){ .measured = INFINITY, .bound = 1e300 }));
+    assert_false(
+        nook_extreme_holds(&(nook_extreme_found){ .measured = nextafter(0.5, 1.0), .bound = 0.5, .where = "here" }));
+    assert_false(nook_extreme_holds(&(nook_extreme_found){ .measured = INFINITY, .bound = 1e300, .where = "here" }));
 }
 
 static void test_nan_does_not_hold(void **state)
 {
     (void)state;
-    assert_false(nook_extreme_holds(&(nook_extreme_found){ .measured = NAN, .bound = 0.5 }));
-    assert_false(nook_extreme_holds(&(nook_extreme_found){ .measured = 0.0, .bound = NAN }));
+    assert_false(nook_extreme_holds(&(nook_extreme_found){ .measured = NAN, .bound = 0.5, .where = "here" }));
+    assert_false(nook_extreme_holds(&(nook_extreme_found){ .measured = 0.0, .bound = NAN, .where = "here" }));
 }
 
 static void test_one_visibility_outside_does_not_hold(void **state)
 {
     (void)state;
-    assert_false(nook_extreme_holds(&(nook_extreme_found){ .measured = 0.0, .bound = 1.0, .outside = 1 }));
+    assert_false(
+        nook_extreme_holds(&(nook_extreme_found){ .measured = 0.0, .bound = 1.0, .outside = 1, .where = "here" }));
 }
 
 static void test_worst_keeps_the_largest_and_its_place(void **state)
@@ -212,6 +221,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_what_is_within_its_bound_holds),
+        cmocka_unit_test(test_what_looked_at_nothing_does_not_hold),
         cmocka_unit_test(test_more_than_the_bound_does_not_hold),
         cmocka_unit_test(test_nan_does_not_hold),
         cmocka_unit_test(test_one_visibility_outside_does_not_hold),
