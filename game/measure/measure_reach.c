@@ -70,7 +70,8 @@ static nook_result open_site(reach *r, uint32_t view)
                                   .noise = r->run->sweep->noise,
                                   .rays_max = r->run->sweep->rays_max,
                                   .cache = r->run->cache,
-                                  .what = NOOK_MEASURE_ALL };
+                                  .what = NOOK_MEASURE_ALL,
+                                  .scene_hash = strtoull(r->names->scene_hash, NULL, 16) };
     nook_result result = nook_site_open(r->stage, &desc, &r->sites[view]);
     r->run->sites += result == NOOK_OK;
     return result == NOOK_OK && !nook_interrupt_asked() ? write_site(r, view) : result;

@@ -98,12 +98,15 @@ static void put_head(FILE *out, const nook_results *results, const char *command
     fputs(". Measured ", out);
     put_dates(out, results);
     fprintf(out, "; %zu results. Command:\n\n    %s\n\n", results->row_count, command);
-    fputs("Numbers stand for all cameras of the scene: ms, fetches, bias and SSIM are means; RMSE, against the depth "
+    fputs("Numbers stand for all cameras of the scene: ms, fetches, bias, SSIM and its ceiling are means; RMSE, "
+          "against the depth "
           "buffer's "
           "own\ngeometry (screen), inside and outside of silhouettes and away from them, noise, flicker and "
           "instability are "
           "roots of mean\nsquares; p99, max, memory and bake time are those of the worst camera. What each is: "
-          "[measuring.md](measuring.md#numbers).\n",
+          "[measuring.md](measuring.md#numbers).\n"
+          "Rows were timed one after another, 3 to 9 frames each: medians of rows within a few percent are not in "
+          "order.\n",
           out);
 }
 
@@ -139,6 +142,7 @@ static void put_initial_row(FILE *out, const nook_summary_view *view, const nook
     put_number(out, "%.3f", sample->truth.p99);
     put_number(out, "%.3f", sample->truth.max);
     put_number(out, "%.3f", sample->ssim);
+    put_number(out, "%.3f", sample->ssim_ceiling);
     put_number(out, "%.4f", sample->screen.rmse);
     put_number(out, "%.4f", sample->rmse_inside);
     put_number(out, "%.4f", sample->rmse_outside);
@@ -155,10 +159,11 @@ static void put_initial_row(FILE *out, const nook_summary_view *view, const nook
 static void put_initial_table(FILE *out, const nook_summary_view *view)
 {
     fputs("Every technique as it comes, and the truths:\n\n"
-          "| technique | ms | fetches | RMSE | bias | p99 | max | SSIM | screen | inside | outside | away | noise | "
+          "| technique | ms | fetches | RMSE | bias | p99 | max | SSIM | ceiling | screen | inside | outside | away | "
+          "noise | "
           "flicker "
           "| instability | volumes MiB | textures MiB | bake s |\n"
-          "|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n",
+          "|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n",
           out);
     for (size_t i = 0; i < view->row_count; i++) {
         const nook_summary_row *row = &view->rows[i];
@@ -179,6 +184,8 @@ static void put_front_row(FILE *out, const nook_summary_row *row)
     const nook_sample *sample = &row->sample;
     fputs("|", out);
     put_ms(out, sample->ms_median);
+    put_ms(out, sample->ms_min);
+    put_ms(out, sample->ms_max);
     put_number(out, "%.0f", sample->fetches);
     put_number(out, "%.4f", sample->truth.rmse);
     put_number(out, "%+.4f", sample->truth.bias);
@@ -201,8 +208,10 @@ static nook_result put_front_table(FILE *out, const nook_summary_view *view)
     }
     qsort(front, count, sizeof(const nook_summary_row *), compare_ms);
     fprintf(out,
-            "\nThe front: %zu of %zu settings; no other beats them in both time and RMSE:\n\n"
-            "| ms | fetches | RMSE | bias | p99 | SSIM | setting |\n|---:|---:|---:|---:|---:|---:|---|\n",
+            "\nThe front: %zu of %zu settings; no other beats them in both time and RMSE. Where the times of two, from "
+            "min to max, overlap,\nwhich is faster is open:\n\n"
+            "| ms | min | max | fetches | RMSE | bias | p99 | SSIM | setting |\n"
+            "|---:|---:|---:|---:|---:|---:|---:|---:|---|\n",
             count, view->compared);
     for (size_t i = 0; i < count; i++)
         put_front_row(out, front[i]);

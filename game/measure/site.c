@@ -30,7 +30,7 @@ static nook_result open_truth(nook_site *site, const nook_site_desc *desc, const
 {
     const nook_truth_desc truth = { .surfaces = surfaces,
                                     .geometry = site->geometry,
-                                    .scene_hash = nook_scene_hash(site->stage->scene),
+                                    .scene_hash = site->scene_hash,
                                     .screen = screen,
                                     .rays_max = desc->rays_max,
                                     .cache = desc->cache };
@@ -61,6 +61,7 @@ nook_result nook_site_open(nook_stage *stage, const nook_site_desc *desc, nook_s
         return nook_fail(NOOK_E_MEMORY, "no memory for a site");
     site->stage = stage;
     site->camera = desc->camera;
+    site->scene_hash = desc->scene_hash ? desc->scene_hash : nook_scene_hash(stage->scene);
     site->what = desc->what;
     site->width = stage->width;
     site->height = stage->height;

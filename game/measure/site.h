@@ -22,6 +22,7 @@ typedef struct nook_site_desc {
     uint32_t rays_max;       /**< ... or until it has taken this many rays a pixel. */
     const char *cache;       /**< Folder for the truths, by content; NULL: none. */
     uint32_t what;           /**< NOOK_MEASURE_*: what the site must be prepared for. */
+    uint64_t scene_hash;     /**< nook_scene_hash of the stage's scene; 0: it is found here. */
 } nook_site_desc;
 
 /** What of a sample is wanted; the rest is NaN. Errors against the truth and fetches are always there. */

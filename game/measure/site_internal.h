@@ -11,6 +11,7 @@ struct nook_site {
     char name[256];
     uint32_t what; /**< NOOK_MEASURE_*. */
     uint32_t width, height;
+    uint64_t scene_hash;
     double r_max;             /**< As it was when the site was opened; the same ever after. */
     uint8_t *geometry;        /**< One byte a pixel. */
     uint8_t *sides[3];        /**< Masks: inside, outside of silhouettes, away from them. */

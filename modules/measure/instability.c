@@ -10,8 +10,7 @@ static double dot(const double a[3], const double b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* Metres from one pixel's centre to the next at unit distance. */
-static double footprint(const nook_seen *seen)
+double nook_seen_footprint(const nook_seen *seen)
 {
     return 2.0 * tan(0.5 * seen->fov_y_radians) / seen->height;
 }
@@ -21,26 +20,17 @@ static size_t pixel_index(const nook_seen *seen, uint32_t x, uint32_t y)
     return (size_t)y * seen->width + x;
 }
 
-/* View position of what a pixel shows. */
-static void pixel_position(const nook_seen *seen, double pixel_size, uint32_t x, uint32_t y, double out[3])
+nook_surface_point nook_seen_point(const nook_seen *seen, double footprint, uint32_t x, uint32_t y)
 {
-    double distance = seen->distances[pixel_index(seen, x, y)];
-    out[0] = (x + 0.5 - 0.5 * seen->width) * pixel_size * distance;
-    out[1] = (y + 0.5 - 0.5 * seen->height) * pixel_size * distance;
-    out[2] = -distance;
+    size_t i = pixel_index(seen, x, y);
+    double distance = seen->distances[i];
+    nook_surface_point p = { .position = { (x + 0.5 - 0.5 * seen->width) * footprint * distance,
+                                           (y + 0.5 - 0.5 * seen->height) * footprint * distance, -distance } };
+    for (size_t axis = 0; axis < 3; axis++)
+        p.normal[axis] = (double)seen->normals[3 * i + axis];
+    nook_matrix_apply_vector(&seen->view_from_world, p.normal, p.normal);
+    return p;
 }
-
-static void pixel_normal(const nook_seen *seen, uint32_t x, uint32_t y, double out[3])
-{
-    const float *normal = &seen->normals[3 * pixel_index(seen, x, y)];
-    for (int i = 0; i < 3; i++)
-        out[i] = (double)normal[i];
-}
-
-/* A point of the first camera's picture as the second has it. */
-typedef struct point {
-    double position[3], normal[3]; /* view space of the second */
-} point;
 
 typedef struct two_views {
     const nook_seen *first, *second;
@@ -48,29 +38,26 @@ typedef struct two_views {
     double first_pixel, second_pixel; /* footprints */
 } two_views;
 
-static point seen_by_second(const two_views *views, uint32_t x, uint32_t y)
+/* A point of the first camera's picture as the second has it. */
+static nook_surface_point seen_by_second(const two_views *views, uint32_t x, uint32_t y)
 {
-    point p = { .position = { 0.0 } };
-    pixel_position(views->first, views->first_pixel, x, y, p.position);
+    nook_surface_point p = nook_seen_point(views->first, views->first_pixel, x, y);
     nook_matrix_apply_point(&views->second_from_first, p.position, p.position);
-    pixel_normal(views->first, x, y, p.normal);
-    nook_matrix_apply_vector(&views->second->view_from_world, p.normal, p.normal);
+    nook_matrix_apply_vector(&views->second_from_first, p.normal, p.normal);
     return p;
 }
 
-static bool same_surface(const two_views *views, const point *p, uint32_t x, uint32_t y)
+static bool same_surface(const two_views *views, const nook_surface_point *p, uint32_t x, uint32_t y)
 {
     const nook_seen *second = views->second;
     if (!(second->distances[pixel_index(second, x, y)] > 0.0f))
         return false;
-    double position[3], normal[3], between[3];
-    pixel_position(second, views->second_pixel, x, y, position);
-    pixel_normal(second, x, y, normal);
-    nook_matrix_apply_vector(&second->view_from_world, normal, normal);
+    nook_surface_point there = nook_seen_point(second, views->second_pixel, x, y);
+    double between[3];
     for (int i = 0; i < 3; i++)
-        between[i] = p->position[i] - position[i];
+        between[i] = p->position[i] - there.position[i];
     double tolerance = NOOK_MATCH_PLANE_FOOTPRINTS * views->second_pixel * -p->position[2];
-    return dot(p->normal, normal) >= NOOK_MATCH_NORMAL_COSINE && fabs(dot(between, normal)) <= tolerance &&
+    return dot(p->normal, there.normal) >= NOOK_MATCH_NORMAL_COSINE && fabs(dot(between, there.normal)) <= tolerance &&
            fabs(dot(between, p->normal)) <= tolerance;
 }
 
@@ -102,7 +89,7 @@ static double to_step(double x)
 }
 
 /* @return false when the second camera does not see the point; *out_x and *out_y are untouched then */
-static bool find_place(const two_views *views, const point *p, float *out_x, float *out_y)
+static bool find_place(const two_views *views, const nook_surface_point *p, float *out_x, float *out_y)
 {
     const nook_seen *second = views->second;
     double distance = -p->position[2];
@@ -127,7 +114,7 @@ static two_views make_views(const nook_seen *first, const nook_seen *second)
     nook_matrix world_from_first;
     nook_matrix_inverse_affine(&first->view_from_world, &world_from_first);
     return (two_views){ first, second, nook_matrix_multiply(&second->view_from_world, &world_from_first),
-                        footprint(first), footprint(second) };
+                        nook_seen_footprint(first), nook_seen_footprint(second) };
 }
 
 nook_result nook_match_create(const nook_seen *first, const nook_seen *second, nook_match *out_match)
@@ -143,7 +130,7 @@ nook_result nook_match_create(const nook_seen *first, const nook_seen *second, n
         places[2 * i] = places[2 * i + 1] = -1.0f;
         if (!(first->distances[i] > 0.0f))
             continue;
-        point p = seen_by_second(&views, (uint32_t)(i % first->width), (uint32_t)(i / first->width));
+        nook_surface_point p = seen_by_second(&views, (uint32_t)(i % first->width), (uint32_t)(i / first->width));
         geometry++;
         shared += find_place(&views, &p, &places[2 * i], &places[2 * i + 1]);
     }

@@ -8,6 +8,7 @@
 #pragma once
 #include "engine/core/matrix.h"
 #include "engine/core/result.h"
+#include "engine/core/surface.h"
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -28,6 +29,12 @@ typedef struct nook_seen {
     const float *distances; /**< Metres along the view axis to what the pixel's centre shows; 0 where nothing is. */
     const float *normals;   /**< Three a pixel: unit, world, of the geometry, towards the camera. */
 } nook_seen;
+
+/** Metres from one pixel's centre to the next at unit distance. */
+double nook_seen_footprint(const nook_seen *seen);
+
+/** What a pixel shows, in view space. @param footprint  nook_seen_footprint, found once for all pixels */
+nook_surface_point nook_seen_point(const nook_seen *seen, double footprint, uint32_t x, uint32_t y);
 
 /** Where a second camera sees the points of a first. Release with nook_match_free. */
 typedef struct nook_match {

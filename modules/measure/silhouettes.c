@@ -1,23 +1,10 @@
 #include "modules/measure/silhouettes.h"
 #include "engine/core/log.h"
 #include "engine/core/surface.h"
-#include <math.h>
 #include <stdlib.h>
 
 /* What a pixel is to the silhouettes that run past it; both may be. */
 enum { BESIDE_INSIDE = 1, BESIDE_OUTSIDE = 2 };
-
-static nook_surface_point point_at(const nook_seen *seen, double footprint, uint32_t x, uint32_t y)
-{
-    size_t i = (size_t)y * seen->width + x;
-    double distance = seen->distances[i];
-    nook_surface_point p = { .position = { (x + 0.5 - 0.5 * seen->width) * footprint * distance,
-                                           (y + 0.5 - 0.5 * seen->height) * footprint * distance, -distance } };
-    for (size_t axis = 0; axis < 3; axis++)
-        p.normal[axis] = (double)seen->normals[3 * i + axis];
-    nook_matrix_apply_vector(&seen->view_from_world, p.normal, p.normal);
-    return p;
-}
 
 /* Looks at two neighbours, and notes at each what side of a silhouette it is. */
 static void compare(const nook_seen *seen, double footprint, const uint32_t a[2], const uint32_t b[2], uint8_t *beside)
@@ -28,8 +15,8 @@ static void compare(const nook_seen *seen, double footprint, const uint32_t a[2]
     if (!shown_a && !shown_b)
         return;
     if (shown_a && shown_b) {
-        nook_surface_point point_a = point_at(seen, footprint, a[0], a[1]);
-        nook_surface_point point_b = point_at(seen, footprint, b[0], b[1]);
+        nook_surface_point point_a = nook_seen_point(seen, footprint, a[0], a[1]);
+        nook_surface_point point_b = nook_seen_point(seen, footprint, b[0], b[1]);
         if (nook_surface_joins(&point_a, &point_b))
             return;
     }
@@ -40,7 +27,7 @@ static void compare(const nook_seen *seen, double footprint, const uint32_t a[2]
 
 static void find_silhouettes(const nook_seen *seen, uint8_t *beside)
 {
-    double footprint = 2.0 * tan(0.5 * seen->fov_y_radians) / seen->height;
+    double footprint = nook_seen_footprint(seen);
     for (uint32_t y = 0; y < seen->height; y++) {
         for (uint32_t x = 0; x < seen->width; x++) {
             uint32_t here[2] = { x, y };

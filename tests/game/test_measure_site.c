@@ -4,6 +4,7 @@
 #include "game/measure/scene_hash.h"
 #include "game/measure/site.h"
 #include "game/stage.h"
+#include "modules/ao_reference/reference.h"
 #include "tests/support/log_capture.h"
 #include "tests/support/scratch.h"
 #include <dirent.h>
@@ -14,10 +15,15 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+#include <xxhash.h>
 
 #include <cmocka.h>
 
 enum { WIDTH = 32, HEIGHT = 24, PIXELS = WIDTH * HEIGHT, PATH_CAPACITY = 4096 };
+
+/* Of the reference's picture, see below. */
+#define KNOWN_VERSION 2u
+#define KNOWN_HASH UINT64_C(0xcf9dc59d616184d6)
 
 typedef struct fixture {
     nook_stage stage;
@@ -63,7 +69,7 @@ static int tear_down(void **state)
 
 static nook_site *open_site(fixture *f, const char *cache, double noise, uint32_t rays_max, uint32_t what)
 {
-    const nook_site_desc desc = { f->camera, "view", noise, rays_max, cache, what };
+    const nook_site_desc desc = { f->camera, "view", noise, rays_max, cache, what, 0 };
     nook_site *site;
     assert_int_equal(nook_site_open(&f->stage, &desc, &site), NOOK_OK);
     return site;
@@ -200,6 +206,24 @@ static void test_a_reach_of_another_length_has_a_truth_of_its_own(void **state)
     nook_site_close(site);
 }
 
+/* Kept truths outlive the program. With 4 rays a pixel the picture is made of quarters, which rounding elsewhere does not move. */
+static void test_the_reference_draws_what_its_version_says(void **state)
+{
+    fixture *f = *state;
+    nook_site *site = open_site(f, NULL, 1.0, 64, NOOK_MEASURE_PICTURE);
+    nook_sample sample = measure(site, "reference rays=4", NOOK_MEASURE_PICTURE);
+    uint8_t quarters[PIXELS];
+    for (int i = 0; i < PIXELS; i++)
+        quarters[i] = (uint8_t)lround(4.0 * (double)sample.visibility.values[i]);
+    uint64_t hash = XXH3_64bits(quarters, sizeof quarters);
+    nook_grey_free(&sample.visibility);
+    nook_site_close(site);
+    if (NOOK_REFERENCE_VERSION != KNOWN_VERSION || hash != KNOWN_HASH)
+        fail_msg(
+            "hash %#llx of version %u: where the rays have changed, raise NOOK_REFERENCE_VERSION, then put both here",
+            (unsigned long long)hash, (unsigned)NOOK_REFERENCE_VERSION);
+}
+
 static void test_where_the_truth_is_too_noisy_for_an_error_it_is_traced_further(void **state)
 {
     fixture *f = *state;
@@ -301,6 +325,7 @@ int main(void)
         SITE_TEST(test_a_damaged_truth_is_one_warning_and_traced_anew),
         SITE_TEST(test_the_truth_is_the_same_whatever_volumes_are_loaded),
         SITE_TEST(test_a_reach_of_another_length_has_a_truth_of_its_own),
+        SITE_TEST(test_the_reference_draws_what_its_version_says),
         SITE_TEST(test_where_the_truth_is_too_noisy_for_an_error_it_is_traced_further),
         SITE_TEST(test_a_setting_measures_the_same_twice_and_after_others),
         SITE_TEST(test_what_is_not_asked_for_is_not_a_number),
