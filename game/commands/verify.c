@@ -85,43 +85,43 @@ static int run_with_device(const nook_app *app, const verify_options *options, n
     return result == NOOK_OK && hold ? NOOK_EXIT_OK : NOOK_EXIT_FAILED;
 }
 
-int nook_command_verify(const nook_app *app, int argc, char **argv)
+/** @return false: *out_exit_code says how to end */
+static bool read_options(int argc, char **argv, verify_options *out_settings, int *out_exit_code)
 {
-    verify_options settings = { .backend = NOOK_BACKEND_AUTO };
     const nook_option options[] = {
         { .name = "techniques",
           .kind = NOOK_OPTION_TEXT,
-          .target = &settings.techniques,
+          .target = &out_settings->techniques,
           .placeholder = "a,b,c",
           .help = "which ones, and filter; default: all" },
         { .name = "fixtures",
           .kind = NOOK_OPTION_TEXT,
-          .target = &settings.fixtures,
+          .target = &out_settings->fixtures,
           .placeholder = "a,b,c",
           .help = "names (pit, wall, ...) or numbers of rows, 1 to 20; default: all" },
         { .name = "rays",
           .kind = NOOK_OPTION_INT,
-          .target = &settings.rays,
+          .target = &out_settings->rays,
           .placeholder = "N",
           .lowest = 1,
           .highest = 4096,
           .help = "for techniques that trace rays; default: what the claims are made for" },
         { .name = "quick",
           .kind = NOOK_OPTION_FLAG,
-          .target = &settings.quick,
+          .target = &out_settings->quick,
           .help = "every fixture at fewer points of its parameters" },
         { .name = "out",
           .kind = NOOK_OPTION_TEXT,
-          .target = &settings.out,
+          .target = &out_settings->out,
           .placeholder = "FILE",
           .help = "also write everything as JSON" },
         { .name = "json",
           .kind = NOOK_OPTION_FLAG,
-          .target = &settings.json,
+          .target = &out_settings->json,
           .help = "print that JSON instead of the table" },
         { .name = "backend",
           .kind = NOOK_OPTION_CUSTOM,
-          .target = &settings.backend,
+          .target = &out_settings->backend,
           .placeholder = "NAME",
           .read = read_backend,
           .expects = "window, osmesa, egl or auto",
@@ -135,12 +135,19 @@ int nook_command_verify(const nook_app *app, int argc, char **argv)
         .details =
             "Verdicts: ok and off are checks of what the technique claims; unseen: the depth buffer does not hold "
             "what\n"
-            "occludes; not claimed: the technique does not say that it computes this.\n"
+            "occludes; unresolved: it does, in too few pixels; not claimed: the technique does not say that it "
+            "computes this.\n"
             "The last line is the summary. Exit code 0 only when nothing is off. See docs/measuring.md, Verify.\n",
     };
     nook_arguments arguments;
+    return nook_arguments_read(&usage, argc, argv, &arguments, out_exit_code);
+}
+
+int nook_command_verify(const nook_app *app, int argc, char **argv)
+{
+    verify_options settings = { .backend = NOOK_BACKEND_AUTO };
     int exit_code;
-    if (!nook_arguments_read(&usage, argc, argv, &arguments, &exit_code))
+    if (!read_options(argc, argv, &settings, &exit_code))
         return exit_code;
     nook_verify_desc desc = { .rays = (uint32_t)settings.rays, .quick = settings.quick };
     char fixtures[1024];

@@ -19,6 +19,7 @@ static const nook_verify_claim claims[] = {
       .plane = 0.01,
       .reads_picture = true,
       .horizons = true,
+      .samples = 16, /* one ray above the horizon in each direction */
       .settings = "hsao directions=16 steps=48 rays=1 ray_steps=24 ao.filter=none",
       .says = "equation 1, of what the depth buffer holds" },
     { .technique = "gtao",
@@ -42,6 +43,7 @@ static const nook_verify_claim claims[] = {
       .tolerance = 0.03,
       .plane = 0.01,
       .reads_picture = true,
+      .samples = 512,
       .settings = "ssao samples=512 ao.filter=none",
       .says = "the part of the half ball of radius r_max that the depth buffer hides" },
 };

@@ -18,7 +18,8 @@ typedef struct nook_verify_claim {
     const char *settings; /**< As in a settings file: what the claim is made for, and little noise. */
     const char *says;     /**< One line. */
     double tolerance;
-    double plane; /**< The most that an open plane may read. */
+    double plane;   /**< The most that an open plane may read. */
+    double samples; /**< Random ones in a pixel, as far as they scatter pixels by more than the tolerance; 0: none. */
     nook_verify_target target;
     bool reads_picture; /**< Knows the depth buffer only: measured with cameras. */
     bool horizons;      /**< Holds where the geometry is a height field over the receiver. */

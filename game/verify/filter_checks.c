@@ -76,6 +76,8 @@ static nook_result add_row(nook_verify_rows *rows, const char *what, const char 
                             .target = strcmp(technique, "filter") == 0 ? "own: difference" : "own: at full scale",
                             .check = check,
                             .equation_1 = NAN,
+                            .deviation = NAN,
+                            .initial = NAN,
                             .outside = outside };
     snprintf(row.point, sizeof row.point, "%.63s", settings);
     snprintf(row.settings, sizeof row.settings, "%s", settings);
@@ -178,16 +180,17 @@ static nook_result check_scales(nook_verify_rig *rig, nook_verify_rows *rows, co
     for (size_t k = 0; k < 3 && result == NOOK_OK; k++) {
         char text[128];
         nook_setting setting;
-        nook_fixture_occlusion got = { 0 };
-        uint64_t outside = 0;
+        nook_verify_reading got = { 0 };
         snprintf(text, sizeof text, "volume rays=64 steps=512 ao.scale=%s", scales[k]);
         result = nook_setting_parse("verify", text, &setting);
         if (result == NOOK_OK)
-            result = nook_verify_rig_look(rig, &scene, &setting, &got, &outside);
-        full = k == 0 ? got.mean : full;
-        const nook_verify_check check = { .expected = full, .measured = got.mean, .tolerance = 0.01, .claimed = true };
+            result = nook_verify_rig_look(rig, &scene, &setting, &got);
+        full = k == 0 ? got.occlusion.mean : full;
+        const nook_verify_check check = {
+            .expected = full, .measured = got.occlusion.mean, .tolerance = 0.01, .claimed = true
+        };
         if (result == NOOK_OK && k > 0)
-            result = add_row(rows, "a lower scale of the trace, in a corner", text, "volume", check, outside);
+            result = add_row(rows, "a lower scale of the trace, in a corner", text, "volume", check, got.outside);
     }
     nook_fixture_view_drop_occluders(rig->picture);
     nook_verify_scene_free(&scene);

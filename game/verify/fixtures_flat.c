@@ -53,7 +53,7 @@ void nook_verify_make_ceiling(uint32_t point, double extent, nook_verify_scene *
 {
     static const double heights[] = { 0.4, 0.1, 0.9, 0.7 };
     (void)extent; /* what is beyond r_max does not count */
-    double k = point < 16 ? heights[point / 4] : 0.4, tau = 3.0;
+    double k = point < 16 ? heights[point / 4] : 0.4, tau = scene->tau;
     scene->falloff = point < 16 ? (nook_falloff[]){ NOOK_FALLOFF_HARD, NOOK_FALLOFF_LINEAR, NOOK_FALLOFF_QUADRATIC,
                                                     NOOK_FALLOFF_EXPONENTIAL }[point % 4]
                                 : NOOK_FALLOFF_WENDLAND;
@@ -103,8 +103,7 @@ void nook_verify_make_wall(uint32_t point, double extent, nook_verify_scene *sce
                             nook_form_wall(NOOK_FORM_SOLID_ANGLE, scene->falloff, k));
     add_ground_beyond(scene, k, 1.05, 1.0);
     scene->height_field = true;
-    if (k >= 0.3) /* else all of it falls into one pixel */
-        nook_verify_scene_camera(scene, "above", (double[]){ 0, 0, 3 }, 1.1);
+    nook_verify_scene_camera(scene, "above", (double[]){ 0, 0, 3 }, 1.1);
     nook_verify_scene_camera(scene, "oblique", (double[]){ -2, 0, 3 }, 0.8);
 }
 

@@ -21,7 +21,7 @@ void nook_verify_make_sphere_inside(uint32_t point, double extent, nook_verify_s
     } points[] = { { NOOK_FALLOFF_HARD, 0.75 },        { NOOK_FALLOFF_LINEAR, 0.75 }, { NOOK_FALLOFF_HARD, 0.3 },
                    { NOOK_FALLOFF_HARD, 1.5 },         { NOOK_FALLOFF_LINEAR, 2 },    { NOOK_FALLOFF_QUADRATIC, 0.75 },
                    { NOOK_FALLOFF_EXPONENTIAL, 0.75 }, { NOOK_FALLOFF_LINEAR, 0.3 },  { NOOK_FALLOFF_EXPONENTIAL, 2 } };
-    const double tau = 3.0, reach = points[point].reach;
+    const double tau = scene->tau, reach = points[point].reach;
     scene->falloff = points[point].falloff;
     snprintf(scene->point, sizeof scene->point, "K %g, %s", reach, nook_verify_falloff_name(scene->falloff));
     /* A hair inside: the receiver's plane would cut through the facets around the pole. */

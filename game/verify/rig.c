@@ -45,18 +45,32 @@ static nook_result apply(nook_ao *ao, const nook_verify_scene *scene, const nook
         result = nook_ao_set_param(ao, "ao.r_max", scene->r_max);
     if (result == NOOK_OK)
         result = nook_ao_set_param(ao, "ao.falloff", (double)scene->falloff);
+    if (result == NOOK_OK)
+        result = nook_ao_set_param(ao, "ao.falloff_tau", scene->tau);
     return result;
 }
 
+/** What the view shows in a square of pixels. */
+static nook_verify_reading read(const nook_fixture_view *view, uint32_t low)
+{
+    const uint32_t side = NOOK_VERIFY_LOOKED_AT_SIDE;
+    nook_verify_reading reading = { .outside = view->outside };
+    reading.occlusion = nook_fixture_summarize(view, low, low, low + side, low + side);
+    for (uint32_t i = 0; i < NOOK_VERIFY_LOOKED_AT; i++)
+        reading.pixels[i] = 1.0 - view->visibility[(low + i / side) * view->width + low + i % side];
+    return reading;
+}
+
 nook_result nook_verify_rig_measure(nook_verify_rig *rig, const nook_verify_scene *scene, const nook_setting *setting,
-                                    nook_fixture_occlusion *out_occlusion, uint64_t *out_outside)
+                                    nook_verify_reading *out_reading)
 {
     const nook_fixture_receiver receiver = { .normal = { 0, 0, 1 }, .distance = 0.05 };
+    nook_fixture_occlusion occlusion;
     nook_result result = apply(rig->receiver->ao, scene, setting);
     if (result == NOOK_OK)
-        result = nook_fixture_measure(rig->receiver, setting->technique->name, &receiver, out_occlusion);
+        result = nook_fixture_measure(rig->receiver, setting->technique->name, &receiver, &occlusion);
     if (result == NOOK_OK)
-        *out_outside = rig->receiver->outside;
+        *out_reading = read(rig->receiver, 0);
     return result;
 }
 
@@ -74,15 +88,12 @@ nook_result nook_verify_rig_draw(nook_verify_rig *rig, const nook_verify_scene *
 }
 
 nook_result nook_verify_rig_look(nook_verify_rig *rig, const nook_verify_scene *scene, const nook_setting *setting,
-                                 nook_fixture_occlusion *out_occlusion, uint64_t *out_outside)
+                                 nook_verify_reading *out_reading)
 {
-    const uint32_t low = NOOK_VERIFY_PICTURE_SIDE / 2 - 2, high = NOOK_VERIFY_PICTURE_SIDE / 2 + 2;
     nook_result result = apply(rig->picture->ao, scene, setting);
     if (result == NOOK_OK)
         result = nook_fixture_view_record(rig->picture, setting->technique->name);
-    if (result == NOOK_OK) {
-        *out_occlusion = nook_fixture_summarize(rig->picture, low, low, high, high);
-        *out_outside = rig->picture->outside;
-    }
+    if (result == NOOK_OK)
+        *out_reading = read(rig->picture, NOOK_VERIFY_LOOKED_AT_FROM);
     return result;
 }

@@ -4,7 +4,14 @@
 #include "game/verify/scene.h"
 #include "modules/fixture/receiver.h"
 
-enum { NOOK_VERIFY_RECEIVER_SIDE = 4, NOOK_VERIFY_PICTURE_SIDE = 96 }; /**< Pixels. */
+enum { NOOK_VERIFY_RECEIVER_SIDE = 4 }; /**< Pixels. */
+
+/** What a setting makes of the receiver. */
+typedef struct nook_verify_reading {
+    nook_fixture_occlusion occlusion;     /**< Over the pixels. */
+    double pixels[NOOK_VERIFY_LOOKED_AT]; /**< A of each, row by row from the bottom. */
+    uint64_t outside;                     /**< Visibilities of the whole image that were not in [0, 1]. */
+} nook_verify_reading;
 
 /** Two views with every technique of the program. */
 typedef struct nook_verify_rig {
@@ -18,13 +25,13 @@ void nook_verify_rig_close(nook_verify_rig *rig);
 
 /** Adds the objects as occluders of the receiver, with volumes when the setting's technique reads them, in place of others. */
 nook_result nook_verify_rig_set(nook_verify_rig *rig, const nook_verify_scene *scene, bool with_volumes);
-/** A of the setting at the receiver. @param out_outside  visibilities that were not in [0, 1] */
+/** A of the setting at the receiver, which all pixels see. */
 nook_result nook_verify_rig_measure(nook_verify_rig *rig, const nook_verify_scene *scene, const nook_setting *setting,
-                                    nook_fixture_occlusion *out_occlusion, uint64_t *out_outside);
+                                    nook_verify_reading *out_reading);
 
 /** Draws ground and objects as the camera sees them. */
 nook_result nook_verify_rig_draw(nook_verify_rig *rig, const nook_verify_scene *scene,
                                  const nook_verify_camera *camera);
 /** A of the setting over the 4 x 4 pixels around the receiver in the picture that was drawn. */
 nook_result nook_verify_rig_look(nook_verify_rig *rig, const nook_verify_scene *scene, const nook_setting *setting,
-                                 nook_fixture_occlusion *out_occlusion, uint64_t *out_outside);
+                                 nook_verify_reading *out_reading);

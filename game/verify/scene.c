@@ -27,7 +27,7 @@ void nook_verify_scene_make(const nook_verify_fixture *fixture, uint32_t point, 
                             nook_verify_scene *out_scene)
 {
     assert(point < fixture->points);
-    *out_scene = (nook_verify_scene){ .r_max = 1.0, .resolution = 256 };
+    *out_scene = (nook_verify_scene){ .r_max = 1.0, .tau = 3.0, .resolution = 256 };
     add_floor(&out_scene->ground);
     fixture->make(point, extent, out_scene);
 }

@@ -8,6 +8,13 @@
 #include <stdbool.h>
 
 enum { NOOK_VERIFY_OBJECTS_MAX = 6, NOOK_VERIFY_CAMERAS_MAX = 2, NOOK_VERIFY_POINT_MAX = 64 };
+/* Of cameras' pictures, which are square, and of what is looked at in their middle, pixels. */
+enum {
+    NOOK_VERIFY_PICTURE_SIDE = 96,
+    NOOK_VERIFY_LOOKED_AT_SIDE = 4,
+    NOOK_VERIFY_LOOKED_AT = NOOK_VERIFY_LOOKED_AT_SIDE * NOOK_VERIFY_LOOKED_AT_SIDE,
+    NOOK_VERIFY_LOOKED_AT_FROM = (NOOK_VERIFY_PICTURE_SIDE - NOOK_VERIFY_LOOKED_AT_SIDE) / 2
+};
 
 /** Looks at the receiver. */
 typedef struct nook_verify_camera {
@@ -20,6 +27,7 @@ typedef struct nook_verify_scene {
     char point[NOOK_VERIFY_POINT_MAX]; /**< "k 0.4, linear" */
     nook_falloff falloff;
     double r_max;                                       /**< Metres. */
+    double tau;                                         /**< Of the exponential falloff. */
     double truth[2];                                    /**< By nook_form_weight. */
     nook_fixture_mesh objects[NOOK_VERIFY_OBJECTS_MAX]; /**< What occludes. */
     uint32_t object_count;
@@ -44,7 +52,7 @@ typedef struct nook_verify_scene {
 typedef struct nook_verify_fixture {
     const char *name; /**< [a-z_]+, for the command line. */
     const char *what; /**< One line for the table. */
-    /** Fills a scene whose ground is a floor, r_max 1, falloff hard, no cameras. @param point  below `points` */
+    /** Fills a scene whose ground is a floor, r_max 1, falloff hard, tau 3, no cameras. @param point  below `points` */
     void (*make)(uint32_t point, double extent, nook_verify_scene *scene);
     int row;
     uint32_t points;         /**< Of its parameters. */

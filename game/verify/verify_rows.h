@@ -2,6 +2,7 @@
 #pragma once
 #include "engine/core/result.h"
 #include "game/verify/verdict.h"
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -15,8 +16,11 @@ typedef struct nook_verify_row {
     const char *target;    /**< Of what `expected` is the value: "Eq. 1", "own: solid angle". */
     nook_verify_check check;
     double equation_1; /**< The fixture's A by equation 1; NaN where that means nothing. */
-    double deviation;  /**< Between the pixels of which the measured value is the mean. */
-    uint64_t outside;  /**< Visibilities outside of [0, 1]: makes the row off. */
+    double deviation;  /**< Between the pixels of which the measured value is the mean; NaN: one value. */
+    double
+        initial; /**< What the technique gives as it comes, at its initial parameters; not judged. NaN: no such thing. */
+    double initial_deviation; /**< The same between the pixels. */
+    uint64_t outside;         /**< Visibilities outside of [0, 1], at either: makes the row off. */
     char settings[192];
     const char *reason; /**< Why nothing, or something else, is claimed; NULL. */
     nook_verdict verdict;
@@ -41,9 +45,21 @@ void nook_verify_rows_free(nook_verify_rows *rows);
 typedef struct nook_verify_summary {
     size_t verdicts[NOOK_VERDICT_COUNT];
     size_t checks;                /**< ok and off. */
-    const nook_verify_row *worst; /**< Of these, the largest error in parts of its tolerance; NULL without checks. */
+    const nook_verify_row *worst; /**< Of these, nearest to a bound, of its error or its spread; NULL without checks. */
     double largest_error;         /**< Of these, absolute. */
     uint64_t outside;
 } nook_verify_summary;
 
 nook_verify_summary nook_verify_summarize(const nook_verify_rows *rows);
+
+/** What the checks of one technique on the fixtures, rows 1 to 17, have in common. Errors are of A, + too dark. */
+typedef struct nook_verify_tally {
+    const char *technique;
+    bool by_screen; /**< The reference, of what one picture holds. */
+    size_t checks;
+    double bias, rmse, spread;         /**< Of what is judged; the spread is the RMS of all. */
+    double initial_bias, initial_rmse; /**< As it comes; NaN: no such thing. */
+} nook_verify_tally;
+
+/** One for each technique that has checks, in the order of the rows. @return how many, at most `capacity` */
+size_t nook_verify_tally_techniques(const nook_verify_rows *rows, nook_verify_tally *tallies, size_t capacity);

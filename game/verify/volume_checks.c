@@ -40,17 +40,21 @@ static nook_result measure(const volume_run *run, const volume_check *check, con
 
 static nook_result report(const volume_run *run, const volume_check *check, double measured, double deviation)
 {
-    nook_verify_row row = {
-        .number = 19,
-        .fixture = "volume_self",
-        .what = check->name,
-        .technique = "volume",
-        .target = "own: prediction",
-        .check = { .expected = check->expected, .measured = measured, .tolerance = check->tolerance, .claimed = true },
-        .equation_1 = NAN,
-        .deviation = deviation,
-        .outside = run->view->outside
-    };
+    nook_verify_row row = { .number = 19,
+                            .fixture = "volume_self",
+                            .what = check->name,
+                            .technique = "volume",
+                            .target = "own: prediction",
+                            .check = { .expected = check->expected,
+                                       .measured = measured,
+                                       .tolerance = check->tolerance,
+                                       .spread = deviation,
+                                       .spread_max = check->tolerance,
+                                       .claimed = true },
+                            .equation_1 = NAN,
+                            .deviation = deviation,
+                            .initial = NAN,
+                            .outside = run->view->outside };
     snprintf(row.point, sizeof row.point, "%s", check->point);
     snprintf(row.settings, sizeof row.settings, "%s", check->settings);
     return nook_verify_rows_add(run->rows, &row);

@@ -39,6 +39,65 @@ static void test_verdict_of_what_is_no_number_is_never_ok(void **state)
     assert_int_equal(judge(0.5, 0.5, NAN, true), NOOK_VERDICT_UNSEEN);
 }
 
+static void test_a_mean_that_is_right_where_no_pixel_is_is_off(void **state)
+{
+    (void)state;
+    nook_verify_check check = good;
+    check.measured = check.expected, check.spread_max = 0.02, check.spread = 0.0199;
+    assert_int_equal(nook_verify_judge(&check), NOOK_VERDICT_OK);
+    check.spread = 0.0201;
+    assert_int_equal(nook_verify_judge(&check), NOOK_VERDICT_OFF);
+    check.spread = NAN;
+    assert_int_equal(nook_verify_judge(&check), NOOK_VERDICT_OFF);
+}
+
+static void test_pixels_scatter_by_the_tolerance_and_by_what_independent_samples_do(void **state)
+{
+    (void)state;
+    assert_true(fabs(nook_verify_spread_max(0.02, 0.5, 0.0) - 0.02) < 1e-12);
+    assert_true(fabs(nook_verify_spread_max(0.0, 0.5, 16.0) - 0.125) < 1e-12); /* tosses of a coin */
+    assert_true(fabs(nook_verify_spread_max(0.03, 0.2, 16.0) - sqrt(0.0009 + 0.01)) < 1e-12);
+    assert_true(nook_verify_spread_max(0.01, 1.0, 1.0) == 0.01);
+}
+
+static void test_verdict_is_unresolved_by_the_picture_and_not_by_the_number(void **state)
+{
+    (void)state;
+    nook_verify_check check = good;
+    for (double measured = 0.0; measured < 1.0; measured += 0.25) {
+        check.measured = measured, check.unresolved = NOOK_VERIFY_UNRESOLVED_MAX + 0.001;
+        assert_int_equal(nook_verify_judge(&check), NOOK_VERDICT_UNRESOLVED);
+        check.unresolved = NOOK_VERIFY_UNRESOLVED_MAX - 0.001;
+        assert_int_equal(nook_verify_judge(&check), measured == 0.5 ? NOOK_VERDICT_OK : NOOK_VERDICT_OFF);
+    }
+    check.unresolved = 0.5, check.claimed = false;
+    assert_int_equal(nook_verify_judge(&check), NOOK_VERDICT_UNRESOLVED);
+    check.missing = 0.5;
+    assert_int_equal(nook_verify_judge(&check), NOOK_VERDICT_UNSEEN);
+    assert_string_equal(nook_verdict_name(NOOK_VERDICT_UNRESOLVED), "unresolved");
+}
+
+static void test_tallies_tell_what_is_judged_from_what_comes(void **state)
+{
+    (void)state;
+    nook_verify_rows rows = { 0 };
+    nook_verify_tally tallies[2];
+    nook_verify_row row = { .number = 10, .technique = "volume", .check = good, .initial = 0.4 };
+    row.check.spread = 0.03, row.check.spread_max = 0.1;
+    assert_int_equal(nook_verify_rows_add(&rows, &row), NOOK_OK); /* error +.01, initially -.1 */
+    row.check.measured = 0.49, row.initial = 0.5, row.check.spread = 0.04;
+    assert_int_equal(nook_verify_rows_add(&rows, &row), NOOK_OK); /* -.01, 0 */
+    row.technique = "gtao", row.check.missing = 0.5;
+    assert_int_equal(nook_verify_rows_add(&rows, &row), NOOK_OK); /* no check */
+    assert_int_equal(nook_verify_tally_techniques(&rows, tallies, 2), 1);
+    assert_int_equal(tallies[0].checks, 2);
+    assert_true(fabs(tallies[0].bias) < 1e-12 && fabs(tallies[0].rmse - 0.01) < 1e-12);
+    assert_true(fabs(tallies[0].initial_bias + 0.05) < 1e-12);
+    assert_true(fabs(tallies[0].initial_rmse - sqrt(0.005)) < 1e-12);
+    assert_true(fabs(tallies[0].spread - sqrt(0.00125)) < 1e-12);
+    nook_verify_rows_free(&rows);
+}
+
 static void test_verdict_says_unseen_before_not_claimed_before_ok(void **state)
 {
     (void)state;
@@ -133,6 +192,10 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_verdict_is_off_when_the_expectation_is_wrong),
         cmocka_unit_test(test_verdict_of_what_is_no_number_is_never_ok),
+        cmocka_unit_test(test_a_mean_that_is_right_where_no_pixel_is_is_off),
+        cmocka_unit_test(test_pixels_scatter_by_the_tolerance_and_by_what_independent_samples_do),
+        cmocka_unit_test(test_verdict_is_unresolved_by_the_picture_and_not_by_the_number),
+        cmocka_unit_test(test_tallies_tell_what_is_judged_from_what_comes),
         cmocka_unit_test(test_verdict_says_unseen_before_not_claimed_before_ok),
         cmocka_unit_test(test_summary_counts_verdicts_and_finds_the_row_nearest_to_its_bound),
         cmocka_unit_test(test_every_technique_has_a_claim_whose_settings_can_be_read),
