@@ -71,7 +71,6 @@ nook_result nook_edge_receiver_measure(nook_edge_receiver *receiver, nook_fixtur
     va_end(arguments);
     nook_result result = nook_fixture_measure(receiver->view, receiver->technique, &receiver->at, out_occlusion);
     if (result == NOOK_OK)
-        nook_extreme_check(receiver->found, receiver->view->visibility, NOOK_EDGE_PIXELS * NOOK_EDGE_PIXELS, "%s",
-                           where);
+        nook_extreme_check_view(receiver->found, receiver->view, "%s", where);
     return result;
 }

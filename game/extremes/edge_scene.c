@@ -219,6 +219,6 @@ nook_result nook_edge_scene_record(nook_edge_scene *scene, const char *technique
     va_start(arguments, format);
     vsnprintf(where, sizeof where, format, arguments);
     va_end(arguments);
-    nook_extreme_check(found, scene->view->visibility, scene->pixels, "%s, %s", technique, where);
+    nook_extreme_check_view(found, scene->view, "%s, %s", technique, where);
     return NOOK_OK;
 }

@@ -1,4 +1,5 @@
 #include "game/extremes/extremes.h"
+#include "modules/fixture/view.h"
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -24,17 +25,31 @@ void nook_extreme_worst(nook_extreme_found *found, double value, const char *for
     va_end(arguments);
 }
 
-void nook_extreme_check(nook_extreme_found *found, const float *visibility, size_t count, const char *format, ...)
+static void add_outside(nook_extreme_found *found, uint64_t outside, uint64_t checked, const char *format,
+                        va_list arguments)
 {
-    uint64_t before = found->outside;
-    for (size_t i = 0; i < count; i++)
-        found->outside += !(visibility[i] >= 0.0f && visibility[i] <= 1.0f); /* counts NaN */
-    found->checked += count;
-    if (before > 0 || found->outside == 0)
-        return;
+    if (found->outside == 0 && outside > 0)
+        vsnprintf(found->where, sizeof found->where, format, arguments);
+    found->outside += outside;
+    found->checked += checked;
+}
+
+void nook_extreme_check_view(nook_extreme_found *found, const nook_fixture_view *view, const char *format, ...)
+{
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(found->where, sizeof found->where, format, arguments);
+    add_outside(found, view->outside, (uint64_t)view->width * view->height, format, arguments);
+    va_end(arguments);
+}
+
+void nook_extreme_check(nook_extreme_found *found, const float *visibility, size_t count, const char *format, ...)
+{
+    uint64_t outside = 0;
+    for (size_t i = 0; i < count; i++)
+        outside += !(visibility[i] >= 0.0f && visibility[i] <= 1.0f); /* counts NaN */
+    va_list arguments;
+    va_start(arguments, format);
+    add_outside(found, outside, count, format, arguments);
     va_end(arguments);
 }
 

@@ -12,6 +12,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+struct nook_fixture_view; /* modules/fixture/view.h */
+
 /** What the cases share. */
 typedef struct nook_extremes {
     nook_gpu *gpu;       /**< A device, current. */
@@ -26,7 +28,7 @@ typedef struct nook_extremes {
 typedef struct nook_extreme_found {
     double measured;  /**< The worst that was seen, in the unit that the case names. */
     double bound;     /**< It holds when measured <= bound and nothing below says otherwise. */
-    uint64_t outside; /**< Visibilities that were NaN, negative or above one: must be 0, always. */
+    uint64_t outside; /**< Visibilities that were NaN, negative or above one, also before a clamp: must be 0, always. */
     uint64_t checked; /**< Visibilities that were looked at for that. */
     char where[192];  /**< Where the worst was: "scale 1e+06, 3 m off". */
 } nook_extreme_found;
@@ -60,7 +62,14 @@ bool nook_extreme_holds(const nook_extreme_found *found);
  */
 void nook_extreme_worst(nook_extreme_found *found, double value, const char *format, ...) NOOK_PRINTF(3, 4);
 
-/** Counts visibilities that are NaN, negative or above one. The first names the place, and none after it does. */
+/**
+ * Counts what a view's last record had outside of [0, 1] (nook_fixture_view.outside: before it was clamped, and in the picture). The
+ * first names the place, and none after it does.
+ */
+void nook_extreme_check_view(nook_extreme_found *found, const struct nook_fixture_view *view, const char *format, ...)
+    NOOK_PRINTF(3, 4);
+
+/** The same of a picture that no view holds. */
 void nook_extreme_check(nook_extreme_found *found, const float *visibility, size_t count, const char *format, ...)
     NOOK_PRINTF(4, 5);
 

@@ -103,7 +103,7 @@ static nook_result record(canvas *c, const char *what)
 {
     nook_result result = nook_fixture_view_record(c->view, "painter");
     if (result == NOOK_OK)
-        nook_extreme_check(c->found, c->view->visibility, (size_t)c->view->width * c->view->height, "%s", what);
+        nook_extreme_check_view(c->found, c->view, "%s", what);
     return result;
 }
 

@@ -184,7 +184,7 @@ static nook_result measure_shadow(shadow *s, const nook_matrix *world_from_local
     memcpy(s->view->occluders[0].world_from_mesh, world_from_local->m, sizeof world_from_local->m);
     nook_result result = nook_fixture_measure(s->view, "volume", &floor, &unused);
     if (result == NOOK_OK)
-        nook_extreme_check(s->found, s->view->visibility, PIXELS * PIXELS, "frame %u", frame);
+        nook_extreme_check_view(s->found, s->view, "frame %u", frame);
     return result;
 }
 

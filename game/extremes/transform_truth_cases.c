@@ -35,7 +35,7 @@ static nook_result measure(nook_fixture_view *view, const char *technique, nook_
     nook_result result = nook_fixture_measure(view, technique, &receiver, &occlusion);
     if (result != NOOK_OK)
         return result;
-    nook_extreme_check(found, view->visibility, (size_t)SIDE * SIDE, "%s", technique);
+    nook_extreme_check_view(found, view, "%s", technique);
     *out_mean = occlusion.mean;
     return NOOK_OK;
 }

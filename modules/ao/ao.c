@@ -31,7 +31,7 @@ static nook_result create_buffers(nook_ao *ao, size_t frame_size)
     if (result == NOOK_OK)
         result = nook_buffer_create(ao->gpu, NULL, ao->occluder_max * sizeof(ao_gpu_occluder), &ao->occluder_buffer);
     if (result == NOOK_OK)
-        result = nook_buffer_create(ao->gpu, NULL, 2 * sizeof(uint32_t), &ao->counter);
+        result = nook_buffer_create(ao->gpu, NULL, sizeof(ao_counts), &ao->counter);
     return result;
 }
 

@@ -35,6 +35,11 @@ typedef struct ao_gpu_occluder {
     float centre[4];              /**< View space, metres; w unused. */
 } ao_gpu_occluder;
 
+/** Block Counter of shaders/ao/counter.glsl. */
+typedef struct ao_counts {
+    uint32_t fetches_low, fetches_high, outside;
+} ao_counts;
+
 /** Textures at the host's size and at the trace's. The trace's are the full ones at scale 1. */
 typedef struct ao_targets {
     nook_texture depth, normal, visibility;                   /**< Full size. */

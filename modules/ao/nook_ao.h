@@ -141,6 +141,9 @@ typedef struct nook_ao_statistics {
         those for pixels without geometry, per full-size pixel with geometry. One of a volume with trilinear filtering counts as
         one like any other; loads of images and buffers count nothing. Needs ao.count = 1, else 0; 0 for the reference. */
     double fetches_per_pixel;
+    /** Visibilities that the trace or the filter computed as NaN, or further outside of [0, 1] than 1e-5, before they were clamped:
+        0, or there is a mistake. Needs ao.count = 1, else 0. The reference does not clamp, and is not counted. */
+    uint32_t outside;
     uint32_t occluders;    /**< Marched this frame. */
     uint64_t volume_bytes; /**< On the GPU. */
     uint64_t

@@ -154,14 +154,14 @@ static nook_result dispatch_filter(nook_ao *ao)
 
 static nook_result upload_inputs(nook_ao *ao, const ao_slot *slot, const nook_ao_frame *frame, uint32_t scale)
 {
-    static const uint32_t zero[2] = { 0, 0 };
+    static const ao_counts zero = { 0 };
     nook_result result = volume_atlas_flush(&ao->atlas);
     if (result != NOOK_OK)
         return result;
     int counting = ao->shared.count && !slot->technique->exact; /* truth reads nothing of the kind */
     frame_block block = make_block(ao, frame, scale, counting);
     nook_buffer_update(ao->gpu, ao->frame, 0, &block, sizeof block);
-    nook_buffer_update(ao->gpu, ao->counter, 0, zero, sizeof zero);
+    nook_buffer_update(ao->gpu, ao->counter, 0, &zero, sizeof zero);
     if (slot->technique->params_size)
         nook_buffer_update(ao->gpu, slot->buffer, 0, slot->params, slot->technique->params_size);
     if (ao->statistics.occluders)
@@ -272,16 +272,19 @@ static uint64_t count_geometry(nook_ao *ao)
 
 void nook_ao_get_statistics(nook_ao *ao, nook_ao_statistics *out_statistics)
 {
-    uint32_t counted[2] = { 0, 0 };
+    ao_counts counted;
     *out_statistics = ao->statistics;
     out_statistics->volume_bytes = volume_atlas_bytes(&ao->atlas);
     out_statistics->texture_bytes = ao_targets_bytes(&ao->targets);
     out_statistics->fetches_per_pixel = 0.0;
+    out_statistics->outside = 0;
     if (!ao->shared.count)
         return;
     ao->gpu->gl->MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-    ao->gpu->gl->GetNamedBufferSubData(ao->counter.id, 0, sizeof counted, counted);
+    ao->gpu->gl->GetNamedBufferSubData(ao->counter.id, 0, sizeof counted, &counted);
+    out_statistics->outside = counted.outside;
     uint64_t pixels = count_geometry(ao);
     if (pixels)
-        out_statistics->fetches_per_pixel = ((double)counted[1] * 4294967296.0 + counted[0]) / (double)pixels;
+        out_statistics->fetches_per_pixel =
+            ((double)counted.fetches_high * 4294967296.0 + counted.fetches_low) / (double)pixels;
 }

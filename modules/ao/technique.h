@@ -42,9 +42,8 @@ typedef struct nook_ao_pass {
     nook_texture visibility; /**< Output, R32F, [0, 1], 1 = open. Write every pixel; 1 where there is no geometry. */
     nook_buffer
         frame; /**< Uniform block of shaders/ao/frame.glsl: sizes, rays of view, r_max, falloff, seed. Binding 0. */
-    nook_buffer params; /**< Uniform block of this technique's params.def. Binding 1. */
-    nook_buffer
-        counter; /**< Storage, two uint32: texture fetches (64 bits, low first). Binding 7: shaders/ao/counter.glsl. */
+    nook_buffer params;  /**< Uniform block of this technique's params.def. Binding 1. */
+    nook_buffer counter; /**< Storage, texture fetches and values out of range. Binding 7: shaders/ao/counter.glsl. */
     int counting;
     uint32_t width, height; /**< Of depth, normal and visibility, pixels. */
 

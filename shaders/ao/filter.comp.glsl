@@ -159,8 +159,8 @@ void main()
         guide.normal = nook_octahedral_decode(fetch(normal_full, p).xy);
         guide.footprint = depth * pixel_footprint();
         vec2 centre = (vec2(p) - float(frame.scale / 2)) / float(frame.scale);
-        result = clamp(filtered(centre, guide, p), 0.0, 1.0);
+        result = bounded(filtered(centre, guide, p));
     }
     imageStore(visibility_out, p, vec4(result));
-    count_fetches();
+    add_counts();
 }

@@ -44,6 +44,19 @@ float blocked_arc(HalfSlice h, vec3 p, float jitter)
     return sum;
 }
 
+// Integral over all slices when nothing blocks: arc(tangent) of both halves is up + outward atan(outward / up). For many slices it is
+// their number, but a few in which the normal happens to lie may hold 1.57 times that.
+float open_arcs(vec3 p, vec3 n, float turn)
+{
+    Azimuths a = azimuths(p, n);
+    float sum = 0.0;
+    for (int k = 0; k < params.slices; k++) {
+        float outward = outward_at(a, 3.14159265 * (float(k) + turn) / float(params.slices));
+        sum += a.up + outward * atan(outward, a.up);
+    }
+    return sum;
+}
+
 // Items are slices.
 float occlusion(ivec2 pixel, vec3 p, vec3 n)
 {
@@ -55,5 +68,5 @@ float occlusion(ivec2 pixel, vec3 p, vec3 n)
         sum += blocked_arc(half_slice(p, n, angle), p, first);
         sum += blocked_arc(half_slice(p, n, angle + 3.14159265), p, 1.0 - first);
     }
-    return sum / float(params.slices);
+    return sum / max(open_arcs(p, n, jitter.x), 1e-6);
 }

@@ -35,6 +35,25 @@ HalfSlice half_slice(vec3 p, vec3 n, float angle)
     return h;
 }
 
+// The azimuths of half planes, seen from the receiver: what of them is open above its plane when nothing blocks.
+struct Azimuths {
+    float up;  // the normal's part towards the eye, > 0
+    vec2 lean; // its parts across the line of sight
+};
+
+Azimuths azimuths(vec3 p, vec3 n)
+{
+    vec3 view = normalize(-p), tangent, bitangent;
+    tangent_frame(view, tangent, bitangent);
+    return Azimuths(max(dot(n, view), 1e-6), vec2(dot(n, tangent), dot(n, bitangent)));
+}
+
+// HalfSlice.outward at an azimuth.
+float outward_at(Azimuths a, float angle)
+{
+    return dot(a.lean, vec2(cos(angle), sin(angle)));
+}
+
 // The depth buffer at a part of the reach, but not nearer than the next texel.
 Sample look_along(HalfSlice h, vec3 p, float part)
 {

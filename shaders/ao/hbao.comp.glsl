@@ -23,6 +23,18 @@ float blocked_part(HalfSlice h, vec3 p, float jitter)
     return sum;
 }
 
+// Sum over all azimuths when nothing blocks: their number when it is even, as opposite ones make up for each other.
+float open_parts(vec3 p, vec3 n, float turn)
+{
+    Azimuths a = azimuths(p, n);
+    float sum = 0.0;
+    for (int k = 0; k < params.directions; k++) {
+        float outward = outward_at(a, 6.2831853 * (float(k) + turn) / float(params.directions));
+        sum += 1.0 + outward / length(vec2(a.up, outward)); // 1 - cos(tangent)
+    }
+    return sum;
+}
+
 // Items are azimuths.
 float occlusion(ivec2 pixel, vec3 p, vec3 n)
 {
@@ -32,5 +44,5 @@ float occlusion(ivec2 pixel, vec3 p, vec3 n)
         float angle = 6.2831853 * (float(k) + jitter.x) / float(params.directions);
         sum += blocked_part(half_slice(p, n, angle), p, fract(jitter.y + float(k) * 0.61803399));
     }
-    return sum / float(params.directions);
+    return sum / max(open_parts(p, n, jitter.x), 1e-6);
 }

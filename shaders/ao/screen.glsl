@@ -48,8 +48,8 @@ void main()
     float visibility = part.x == 0 ? 1.0 : imageLoad(visibility_image, pixel).r;
     if (depth > 0.0) {
         vec3 normal = nook_octahedral_decode(fetch(normal_texture, pixel).xy);
-        visibility = clamp(visibility - occlusion(pixel, view_position(pixel, depth), normal), 0.0, 1.0);
+        visibility = bounded(visibility - occlusion(pixel, view_position(pixel, depth), normal));
     }
     imageStore(visibility_image, pixel, vec4(visibility));
-    count_fetches();
+    add_counts();
 }

@@ -211,8 +211,8 @@ void main()
     if (is_last && !multiply)
         result = 1.0 - result / float(params.rays);
     if (is_last)
-        result = depth > 0.0 ? clamp(result, 0.0, 1.0) : 1.0;
+        result = depth > 0.0 ? bounded(result) : 1.0;
     if (on_image)
         imageStore(visibility_image, pixel, vec4(result));
-    count_fetches();
+    add_counts();
 }

@@ -1,5 +1,6 @@
-/* Texture fetches of a record, counted by hand: a wall that faces the camera, every pixel of it on one plane, and a reach so short
+/* What ao.count = 1 counts: values out of range, and texture fetches, here by hand: a wall that faces the camera, every pixel of it on one plane, and a reach so short
    that every sample falls into the pixel it belongs to. */
+#include "modules/ao/technique.h"
 #include "tests/support/ao_view.h"
 #include <math.h>
 #include <stdio.h>
@@ -14,9 +15,22 @@ enum { WIDTH = 24, HEIGHT = 16 };
 static const char *const scales[] = { "full", "half", "quarter" };
 static const double facing[3] = { 0, 0, 1 };
 
+static nook_result record_mistakes(void *state, const void *params, const nook_ao_pass *pass)
+{
+    (void)state, (void)params;
+    return nook_ao_pass_dispatch(pass, "tests/ao/mistaken.comp.glsl", 16, 8);
+}
+
+static const nook_ao_technique mistaken = { .version = NOOK_AO_TECHNIQUE_VERSION,
+                                            .name = "mistaken",
+                                            .summary = "Wrong in three columns",
+                                            .record = record_mistakes };
+
 static int setup(void **state)
 {
-    *state = ao_view_create(WIDTH, HEIGHT);
+    nook_fixture_view *view = ao_view_create(WIDTH, HEIGHT);
+    assert_int_equal(nook_ao_add_technique(view->ao, &mistaken), NOOK_OK);
+    *state = view;
     return 0;
 }
 
@@ -151,6 +165,67 @@ static void test_fetches_are_not_counted_unless_asked_for(void **state)
     assert_true(counted(view, "ssao") == 0.0);
 }
 
+/** Of a record that need not be right. */
+static uint32_t outside(nook_fixture_view *view, const char *technique)
+{
+    nook_ao_statistics statistics;
+    assert_int_equal(nook_fixture_view_record(view, technique), NOOK_OK);
+    nook_ao_get_statistics(view->ao, &statistics);
+    assert_true(view->outside >= statistics.outside); /* and what is wrong in the picture too */
+    return statistics.outside;
+}
+
+static void test_values_of_a_trace_that_are_not_visibilities_are_counted_before_the_clamp(void **state)
+{
+    nook_fixture_view *view = start(state, 0);
+    assert_int_equal(outside(view, "mistaken"), 3 * HEIGHT);
+    view = start(state, 1);
+    assert_int_equal(outside(view, "mistaken"), 2 * HEIGHT); /* nothing is computed where nothing is seen */
+    ao_view_param(view, "ao.count", "0");
+    assert_int_equal(outside(view, "mistaken"), 0);
+    assert_int_equal(view->outside, 2 * HEIGHT); /* a view counts all the same */
+}
+
+static float paint(const ao_probe *probe, uint32_t x, uint32_t y)
+{
+    (void)x, (void)y;
+    return probe->painted;
+}
+
+static void test_values_of_the_filter_that_are_not_visibilities_are_counted_before_the_clamp(void **state)
+{
+    static const float wrong[] = { NAN, -INFINITY, -0.0001f, 1.0001f }, right[] = { 0.0f, 1.0f, 0.5f, 1.000001f };
+    nook_fixture_view *view = start(state, 0);
+    ao_view_param(view, "ao.filter", "tile");
+    ao_view_probe(view)->paint = paint;
+    for (size_t i = 0; i < NOOK_COUNT(wrong); i++) {
+        ao_view_probe(view)->painted = wrong[i];
+        assert_int_equal(outside(view, "probe"), WIDTH * HEIGHT);
+        ao_view_probe(view)->painted = right[i];
+        assert_int_equal(outside(view, "probe"), 0);
+    }
+}
+
+/** The wall from so flat an angle that the slices of a pixel hold more, or less, than their share of the sky. */
+static void test_few_slices_block_no_more_than_all_of_the_sky(void **state)
+{
+    static const double grazing[3] = { 0.9995, 0, 0.0316 };
+    nook_fixture_view *view = start(state, 0);
+    ao_view_param(view, "ao.r_max", "100");
+    for (uint32_t y = 0; y < HEIGHT; y++) {
+        for (uint32_t x = 0; x < WIDTH; x++) /* all in a narrow ditch */
+            nook_fixture_view_set_pixel(view, x, y, (x + y) % 3 ? 1.0 : 2.0, grazing);
+    }
+    for (int count = 1; count <= 5; count++) {
+        char text[8];
+        snprintf(text, sizeof text, "%d", count);
+        ao_view_param(view, "gtao.slices", text);
+        ao_view_param(view, "hbao.directions", text);
+        assert_int_equal(outside(view, "gtao"), 0);
+        assert_int_equal(outside(view, "hbao"), 0);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -160,6 +235,9 @@ int main(void)
         cmocka_unit_test(test_fetches_where_nothing_is_seen_are_shared_by_the_pixels_that_see),
         cmocka_unit_test(test_fetches_of_rebuilt_normals_count),
         cmocka_unit_test(test_fetches_are_not_counted_unless_asked_for),
+        cmocka_unit_test(test_values_of_a_trace_that_are_not_visibilities_are_counted_before_the_clamp),
+        cmocka_unit_test(test_values_of_the_filter_that_are_not_visibilities_are_counted_before_the_clamp),
+        cmocka_unit_test(test_few_slices_block_no_more_than_all_of_the_sky),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
 }
