@@ -6,10 +6,16 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/** The most that this process ever had resident, bytes; in a child its own, from what it was born with. @return NOOK_E_IO */
-nook_result nook_peak_memory_read(uint64_t *out_bytes);
+/** Of this process, bytes; in a child its own. */
+typedef struct nook_memory {
+    uint64_t resident; /**< Now. */
+    uint64_t peak;     /**< The most that it ever was. */
+} nook_memory;
 
-/** Bytes of growth as the program would take them: under AddressSanitizer an eighth more is kept beside all that is touched. */
+/** @return NOOK_E_IO where the system does not tell */
+nook_result nook_memory_read(nook_memory *out_memory);
+
+/** Bytes of growth as the program would take them: under AddressSanitizer more is kept. */
 uint64_t nook_peak_memory_ours(uint64_t growth);
 
 /** Fills `out`, which starts as zero. */

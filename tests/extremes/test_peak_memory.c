@@ -13,17 +13,18 @@ enum { BYTES = 64 << 20 };
 
 static nook_result touch(const void *user, void *out)
 {
-    uint64_t before, after;
+    nook_memory before, after;
     const size_t size = *(const size_t *)user;
-    nook_result result = nook_peak_memory_read(&before);
+    if (nook_memory_read(&before) != NOOK_OK)
+        return NOOK_E_IO;
     char *block = malloc(size ? size : 1);
-    if (result != NOOK_OK || !block)
+    if (!block)
         return NOOK_E_MEMORY;
     for (volatile char *at = block; at < block + size; at += 4096)
         *at = 1;
     free(block); /* the peak stays */
-    result = nook_peak_memory_read(&after);
-    *(uint64_t *)out = nook_peak_memory_ours(after - before);
+    nook_result result = nook_memory_read(&after);
+    *(uint64_t *)out = nook_peak_memory_ours(after.peak - before.resident);
     return result;
 }
 
