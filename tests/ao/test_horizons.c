@@ -168,6 +168,23 @@ static void test_gtao_follows_the_falloff_in_a_corner(void **state)
 }
 
 /* The wall of a pit of radius and depth 1 stands at 1 / cos e at elevation e; the two integrals up to e = 45 degrees, r = 4. */
+/* Walls 1 m off and 1 m high, reach 2.5 m: what one sample meets is at least 1 m away, where rho is 0.6, and counts the mean of its rho
+   and of the receiver's own, 1: the exception that docs/techniques.md states. Closed form: 0.53 of what hard falloff counts. */
+static void test_gtao_of_one_step_counts_a_wall_between_its_own_falloff_and_the_mean_with_one(void **state)
+{
+    nook_fixture_view *view = look_into_pit(state, 1.0, 2.5);
+    ao_view_param(view, "gtao.steps", "1");
+    ao_view_param(view, "ao.falloff", "hard");
+    double hard = ao_screen_measure_centre(view, "gtao");
+    ao_view_param(view, "ao.falloff", "linear");
+    double part = ao_screen_measure_centre(view, "gtao") / hard;
+    ao_view_param(view, "ao.falloff", "hard");
+    ao_view_param(view, "gtao.steps", "8");
+    assert_true(hard > 0.01);
+    if (part < 0.6 || part > (1 + 0.6) / 2 + 1e-3)
+        fail_msg("linear falloff counts %.4f of what hard does", part);
+}
+
 static void test_both_follow_the_falloff_in_a_pit(void **state)
 {
     nook_fixture_view *view = look_into_pit(state, 1.0, 4.0);
@@ -361,6 +378,8 @@ int main(void)
         cmocka_unit_test_setup(test_an_open_plane_is_open_at_every_tilt, converge),
         cmocka_unit_test_setup(test_corners_of_any_angle_read_as_truth_and_as_solid_angle, converge),
         cmocka_unit_test_setup(test_gtao_follows_the_falloff_in_a_corner, converge),
+        cmocka_unit_test_setup(test_gtao_of_one_step_counts_a_wall_between_its_own_falloff_and_the_mean_with_one,
+                               converge),
         cmocka_unit_test_setup(test_both_follow_the_falloff_in_a_pit, converge),
         cmocka_unit_test_setup(test_a_trench_that_the_camera_sees_whole, converge),
         cmocka_unit_test_setup(test_more_slices_and_steps_come_nearer_to_the_limit, converge),
