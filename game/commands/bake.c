@@ -76,56 +76,49 @@ static int bake_file(const char *path, const nook_volumes_desc *desc)
     return NOOK_EXIT_OK;
 }
 
-/* Takes from a settings file what the command line leaves open. */
-static nook_result settle(const char *path, int32_t *resolution, double *r_max)
-{
-    nook_settings_file file;
-    nook_result result = nook_settings_file_read(path, &file);
-    if (result != NOOK_OK)
-        return result;
-    *resolution = *resolution ? *resolution : (int32_t)file.setting.resolution;
-    *r_max = *r_max > 0.0 ? *r_max : file.r_max;
-    return NOOK_OK;
-}
-
-int nook_command_bake(const nook_app *app, int argc, char **argv)
-{
+/* The command line. */
+typedef struct bake_request {
+    const char *scene, *cache, *settings;
+    int32_t resolution, threads;
+    double r_max;
     char default_cache[PATH_CAPACITY];
-    const char *cache = nook_path_join(default_cache, sizeof default_cache, app->root, "cache");
-    const char *settings = NULL;
-    int32_t resolution = 0, threads = 0;
-    double r_max = 0.0;
+} bake_request;
+
+static bool read_request(const nook_app *app, int argc, char **argv, bake_request *out, int *out_exit_code)
+{
+    *out = (bake_request){ .scene = NULL };
+    out->cache = nook_path_join(out->default_cache, sizeof out->default_cache, app->root, "cache");
     const nook_param *shared_r_max = nook_shared_param("r_max");
     bake_help help = { .details = "" };
     describe(&help);
     const nook_option options[] = {
         { .name = "settings",
           .kind = NOOK_OPTION_TEXT,
-          .target = &settings,
+          .target = &out->settings,
           .placeholder = "FILE",
           .help = "resolution and r_max of a settings file; options given here count more" },
         { .name = "resolution",
           .kind = NOOK_OPTION_INT,
-          .target = &resolution,
+          .target = &out->resolution,
           .placeholder = "N",
           .help = help.resolution,
           .lowest = 1,
           .highest = NOOK_VOXELIZE_RESOLUTION_MAX },
         { .name = "r-max",
           .kind = NOOK_OPTION_NUMBER,
-          .target = &r_max,
+          .target = &out->r_max,
           .placeholder = "M",
           .help = help.r_max,
           .lowest = shared_r_max->lowest,
           .highest = shared_r_max->highest },
         { .name = "cache",
           .kind = NOOK_OPTION_TEXT,
-          .target = &cache,
+          .target = &out->cache,
           .placeholder = "DIR",
           .help = "where volumes are kept; default cache/ beside the sources" },
         { .name = "threads",
           .kind = NOOK_OPTION_INT,
-          .target = &threads,
+          .target = &out->threads,
           .placeholder = "N",
           .help = "default 0: one per processor",
           .lowest = 0,
@@ -140,16 +133,39 @@ int nook_command_bake(const nook_app *app, int argc, char **argv)
                                .option_count = NOOK_COUNT(options),
                                .details = help.details };
     nook_arguments arguments;
+    if (!nook_arguments_read(&usage, argc, argv, &arguments, out_exit_code))
+        return false;
+    out->scene = arguments.positionals[0];
+    return true;
+}
+
+/* Takes from the settings file what the command line leaves open. */
+static nook_result settle(bake_request *request)
+{
+    nook_settings_file file;
+    nook_result result = request->settings ? nook_settings_file_read(request->settings, &file) : NOOK_OK;
+    if (result != NOOK_OK || !request->settings)
+        return result;
+    if (request->resolution == 0)
+        request->resolution = (int32_t)file.setting.resolution;
+    if (request->r_max == 0.0)
+        request->r_max = file.r_max;
+    return NOOK_OK;
+}
+
+int nook_command_bake(const nook_app *app, int argc, char **argv)
+{
+    bake_request request;
     int exit_code;
-    if (!nook_arguments_read(&usage, argc, argv, &arguments, &exit_code))
+    if (!read_request(app, argc, argv, &request, &exit_code))
         return exit_code;
-    if (settings && settle(settings, &resolution, &r_max) != NOOK_OK)
+    if (settle(&request) != NOOK_OK)
         return NOOK_EXIT_FAILED;
-    const nook_volumes_desc desc = { .resolution = (uint32_t)resolution,
-                                     .r_max = r_max,
-                                     .cache_dir = cache,
+    const nook_volumes_desc desc = { .resolution = (uint32_t)request.resolution,
+                                     .r_max = request.r_max,
+                                     .cache_dir = request.cache,
                                      .must_keep = true,
-                                     .threads = (uint32_t)threads,
+                                     .threads = (uint32_t)request.threads,
                                      .progress = tell_progress };
-    return bake_file(arguments.positionals[0], &desc);
+    return bake_file(request.scene, &desc);
 }

@@ -105,7 +105,7 @@ static bool is_beaten(const nook_tune_trials *trials, uint32_t technique)
     nook_tune_cost own = nook_tune_trials_cost(trials, nook_tune_trials_best(trials, technique));
     double behind = nook_tune_excess(goal, &own) - nook_tune_excess(goal, &ahead);
     if (nook_tune_fits(goal, &own))
-        behind = log(nook_tune_objective(goal, &own) / nook_tune_objective(goal, &ahead));
+        behind = nook_tune_log_ratio(nook_tune_objective(goal, &own), nook_tune_objective(goal, &ahead));
     return behind > hopeless;
 }
 

@@ -1,9 +1,15 @@
 #include "game/tune/goal.h"
 #include <math.h>
 
+double nook_tune_log_ratio(double a, double b)
+{
+    const double least = 1e-6;
+    return log(fmax(a, least) / fmax(b, least));
+}
+
 static double excess_of(double value, double limit)
 {
-    return limit > 0.0 ? fmax(0.0, log(value / limit)) : 0.0;
+    return limit > 0.0 ? fmax(0.0, nook_tune_log_ratio(value, limit)) : 0.0;
 }
 
 double nook_tune_excess(const nook_tune_goal *goal, const nook_tune_cost *cost)

@@ -18,6 +18,9 @@ typedef struct nook_tune_cost {
 
 bool nook_tune_fits(const nook_tune_goal *goal, const nook_tune_cost *cost);
 
+/** log(a / b), where nothing counts as less than a millionth: an error of 0 is not infinitely better. */
+double nook_tune_log_ratio(double a, double b);
+
 /** How far outside of the budget: 0 within it, else the sum of the logarithms of what it exceeds its limits by. */
 double nook_tune_excess(const nook_tune_goal *goal, const nook_tune_cost *cost);
 

@@ -102,7 +102,7 @@ static uint32_t rank(const nook_tune_trials *trials, contender out[NOOK_TUNE_TEC
 static bool has_hope(const nook_tune_goal *goal, const nook_tune_cost *cost, const nook_tune_cost *best)
 {
     double excess = nook_tune_excess(goal, cost) - nook_tune_excess(goal, best);
-    double behind = log(nook_tune_objective(goal, cost) / nook_tune_objective(goal, best));
+    double behind = nook_tune_log_ratio(nook_tune_objective(goal, cost), nook_tune_objective(goal, best));
     const double hopeless = log(hopeless_factor);
     return excess < hopeless && (!nook_tune_fits(goal, cost) || behind < hopeless);
 }
@@ -126,23 +126,6 @@ static nook_result refine(nook_tune_trials *trials)
 }
 
 /* ---- The winner --------------------------------------------------------------------------------------------------- */
-
-static uint32_t round_up(double views, uint32_t period)
-{
-    return (uint32_t)ceil(views / period) * period;
-}
-
-/* In how many views the winner is to be measured: as its own spread asks for. */
-static uint32_t views_wanted(const nook_tune_search_desc *desc, const nook_tune_trial *trial)
-{
-    if (desc->part == 0.0)
-        return desc->views_max;
-    nook_tune_estimate few = nook_tune_pool(trial->views, trial->view_count);
-    double needed = nook_tune_views_needed(&few, desc->part);
-    uint32_t views = needed < desc->views_max ? round_up(needed, desc->period) : desc->views_max;
-    views = views < desc->views_few ? desc->views_few : views;
-    return views < desc->views_max ? views : desc->views_max;
-}
 
 /* The number of views that any trial was measured in, at most. */
 static uint32_t most_views(const nook_tune_trials *trials)
@@ -172,38 +155,45 @@ static nook_tune_trial *best_with_doubt(const nook_tune_trials *trials, double d
     return best;
 }
 
-/* Measures what looks best in many views, until what looks best has been. Each time that it was not, the others are doubted more. */
-static nook_result confirm(nook_tune_trials *trials)
+/* So far twice as many views at a time: what does not hold in these needs no more. */
+static nook_result extend(nook_tune_trials *trials, nook_tune_trial *trial, uint32_t wanted)
 {
-    const nook_tune_search_desc *desc = trials->desc;
+    uint32_t twice = 2 * trial->view_count, few = trials->desc->views_few;
+    uint32_t views = twice > few ? twice : few;
+    return nook_tune_trials_extend(trials, trial, views < wanted ? views : wanted);
+}
+
+/*
+ * Measures what looks best in more views, until what looks best was measured in as many as its spread asks for. Each time that it was
+ * not, the others are doubted more.
+ */
+static nook_result confirm(nook_tune_trials *trials, bool *out_settled)
+{
+    *out_settled = false;
     for (int i = 0; i < CONFIRMATIONS_MAX; i++) {
         nook_tune_trial *best = best_with_doubt(trials, 1.0 + 0.01 * i);
-        nook_result result = nook_tune_trials_extend(trials, best, desc->views_few);
-        if (result != NOOK_OK)
-            return result;
-        if (best != best_with_doubt(trials, 1.0 + 0.01 * i))
-            continue;
-        uint32_t wanted = views_wanted(desc, best), most = most_views(trials); /* more views may show more spread */
-        wanted = wanted > most ? wanted : most;
-        if (best->view_count >= wanted)
+        uint32_t wanted = nook_tune_trials_wanted(trials, best);
+        *out_settled = best->view_count >= trials->desc->views_few && best->view_count >= wanted;
+        if (*out_settled)
             return NOOK_OK;
-        result = nook_tune_trials_extend(trials, best, wanted);
+        nook_result result = extend(trials, best, wanted);
         if (result != NOOK_OK)
             return result;
     }
     return NOOK_OK;
 }
 
-/* The best of those that were measured in most views; nothing else is told. */
-static const nook_tune_trial *winner(const nook_tune_trials *trials)
+/* The best of those that were measured in a few views at least, by these alone and their own margins. There is one. */
+static nook_tune_trial *best_of_measured(const nook_tune_trials *trials)
 {
-    const nook_tune_trial *best = NULL;
+    nook_tune_trial *best = NULL;
     nook_tune_cost best_cost = { 0 };
-    uint32_t most = most_views(trials);
     for (uint32_t i = 0; i < trials->count; i++) {
-        const nook_tune_trial *trial = &trials->items[i];
-        nook_tune_cost cost = nook_tune_pool(trial->views, trial->view_count).cost;
-        if (trial->view_count < most || (best && !nook_tune_better(&trials->desc->goal, &cost, &best_cost)))
+        nook_tune_trial *trial = &trials->items[i];
+        nook_tune_estimate estimate = nook_tune_pool(trial->views, trial->view_count);
+        nook_tune_cost cost = nook_tune_with_margin(&trials->desc->goal, &estimate);
+        if (trial->view_count < trials->desc->views_few ||
+            (best && !nook_tune_better(&trials->desc->goal, &cost, &best_cost)))
             continue;
         best = trial;
         best_cost = cost;
@@ -211,7 +201,22 @@ static const nook_tune_trial *winner(const nook_tune_trials *trials)
     return best;
 }
 
-static nook_result search(nook_tune_trials *trials)
+/* The winner, measured in as many views as it asks for. Each turn measures more or ends, and views are limited. */
+static nook_result choose(nook_tune_trials *trials, const nook_tune_trial **out_best)
+{
+    nook_tune_trial *best = best_of_measured(trials);
+    for (uint32_t wanted = nook_tune_trials_wanted(trials, best); best->view_count < wanted;) {
+        nook_result result = extend(trials, best, wanted);
+        if (result != NOOK_OK)
+            return result;
+        best = best_of_measured(trials);
+        wanted = nook_tune_trials_wanted(trials, best);
+    }
+    *out_best = best;
+    return NOOK_OK;
+}
+
+static nook_result search(nook_tune_trials *trials, bool *out_settled)
 {
     const nook_tune_search_desc *desc = trials->desc;
     nook_result result = NOOK_OK;
@@ -222,13 +227,13 @@ static nook_result search(nook_tune_trials *trials)
     /* What many views say of the best may shift the budget's edge: then there is something to gain beside it. */
     for (int again = 0; again < AGAIN_MAX && result == NOOK_OK; again++) {
         uint32_t before = trials->count;
-        result = confirm(trials);
+        result = confirm(trials, out_settled);
         if (result == NOOK_OK && nook_tune_trials_open(trials))
             result = nook_tune_descend(trials, nook_tune_trials_best(trials, UINT32_MAX)->point.technique);
         if (trials->count == before)
             break;
     }
-    return result == NOOK_OK ? confirm(trials) : result;
+    return result == NOOK_OK ? confirm(trials, out_settled) : result;
 }
 
 nook_result nook_tune_search(const nook_tune_search_desc *desc, nook_tune_outcome *out)
@@ -238,12 +243,17 @@ nook_result nook_tune_search(const nook_tune_search_desc *desc, nook_tune_outcom
     nook_tune_trials trials = { .desc = desc, .items = calloc(NOOK_TUNE_TRIALS_MAX, sizeof *trials.items) };
     if (!trials.items)
         return nook_fail(NOOK_E_MEMORY, "no memory for %d settings", NOOK_TUNE_TRIALS_MAX);
-    nook_result result = search(&trials);
+    const nook_tune_trial *best = NULL;
+    bool settled = false;
+    nook_result result = search(&trials, &settled);
+    if (result == NOOK_OK)
+        result = choose(&trials, &best);
     if (result == NOOK_OK) {
-        const nook_tune_trial *best = winner(&trials);
         out->best = *best;
         out->estimate = nook_tune_pool(best->views, best->view_count);
-        out->fits = nook_tune_fits(&desc->goal, &out->estimate.cost);
+        nook_tune_cost cost = nook_tune_with_margin(&desc->goal, &out->estimate);
+        out->fits = nook_tune_fits(&desc->goal, &cost);
+        out->settled = settled;
         out->tried = trials.count;
         out->measurements = trials.measurements;
     }

@@ -5,13 +5,15 @@
  *   anchors   every technique at a few settings, in the first views alone; techniques that are far from the budget are dropped
  *   descent   from the best anchor of each: one step along every axis, then the combinations that these steps promise most, again from
  *             where that led, with smaller steps
- *   confirm   the best in many views; views differ, so what the first ones said is scaled by what many say of another setting of
- *             the technique, and what then looks best is measured in many views too, until the best one is
+ *   confirm   the best in many views, twice as many at a time; views differ, so what the first ones said is scaled by what many say of
+ *             another setting of the technique, and what then looks best is measured in many views too, until the best one is
+ *
+ * Within the budget is what is so with one standard error on top.
  */
 #pragma once
 #include "game/tune/trial.h"
 
-enum { NOOK_TUNE_TRIALS_MAX = 256 };
+enum { NOOK_TUNE_TRIALS_MAX = 256, NOOK_TUNE_TRIES_DEFAULT = 70 };
 
 typedef struct nook_tune_search_desc {
     const nook_tune_space *space;
@@ -30,11 +32,12 @@ typedef struct nook_tune_search_desc {
 } nook_tune_search_desc;
 
 typedef struct nook_tune_outcome {
-    nook_tune_trial best;        /**< Measured and timed in all its views; when nothing fits, the nearest. */
-    nook_tune_estimate estimate; /**< Of it. */
-    bool fits;
-    uint32_t tried;        /**< Settings. */
-    uint32_t measurements; /**< Settings x views. */
+    nook_tune_trial best;        /**< When nothing fits, the nearest. */
+    nook_tune_estimate estimate; /**< Of it, by what it was chosen by. */
+    bool fits;                   /**< The estimate does, with one standard error on top: nook_tune_with_margin. */
+    bool settled;                /**< false: something else promised more to the last, but never held in more views. */
+    uint32_t tried;              /**< Settings. */
+    uint32_t measurements;       /**< Settings x views. */
 } nook_tune_outcome;
 
 /** @return what measure returned, NOOK_E_MEMORY; *out is untouched then */

@@ -17,26 +17,61 @@ static double standard_error(const nook_tune_view *views, uint32_t count, double
     return mean > 0.0 ? 0.5 * sqrt(variance) / sqrt(mean) : 0.0;
 }
 
-nook_tune_estimate nook_tune_pool(const nook_tune_view *views, uint32_t count)
+/* Mean, its standard error and the mean spread of the times that there are. */
+static void pool_times(const nook_tune_view *views, uint32_t count, nook_tune_estimate *estimate)
 {
-    double squares = 0.0, pixels = 0.0, ms = 0.0;
-    uint32_t timed = 0;
+    double sum = 0.0, spread = 0.0, squares = 0.0, timed = 0.0;
     for (uint32_t i = 0; i < count; i++) {
-        squares += views[i].squared * views[i].pixels;
-        pixels += views[i].pixels;
         if (isnan(views[i].ms))
             continue;
-        ms += views[i].ms;
-        timed++;
+        sum += views[i].ms;
+        spread += views[i].ms_spread;
+        timed += 1.0;
     }
-    double mean = squares / pixels;
-    nook_tune_estimate estimate = { .cost = { sqrt(fmax(mean, 0.0)), ms / timed }, .views = count };
+    estimate->cost.ms = sum / timed;
+    estimate->ms_spread = spread / timed;
+    for (uint32_t i = 0; i < count; i++) {
+        if (!isnan(views[i].ms))
+            squares += pow(views[i].ms - estimate->cost.ms, 2.0);
+    }
+    estimate->ms_standard = timed > 1.0 ? sqrt(squares / (timed - 1.0) / timed) : NAN;
+}
+
+nook_tune_estimate nook_tune_pool(const nook_tune_view *views, uint32_t count)
+{
+    double squares = 0.0, noises = 0.0, pixels = 0.0;
+    for (uint32_t i = 0; i < count; i++) {
+        squares += views[i].squared * views[i].pixels;
+        noises += views[i].noise * views[i].noise * views[i].pixels;
+        pixels += views[i].pixels;
+    }
+    /* Cut off at 0 only here: of each view alone that would make small errors larger than they are. */
+    double mean = fmax(squares / pixels, 0.0);
+    nook_tune_estimate estimate = { .cost.error = sqrt(mean), .noise = sqrt(noises / pixels), .views = count };
     estimate.error_standard = count > 1 ? standard_error(views, count, mean, pixels) : NAN;
+    pool_times(views, count, &estimate);
     return estimate;
+}
+
+nook_tune_cost nook_tune_with_margin(const nook_tune_goal *goal, const nook_tune_estimate *estimate)
+{
+    nook_tune_cost cost = estimate->cost;
+    if (goal->max_error > 0.0 && !isnan(estimate->error_standard))
+        cost.error += estimate->error_standard;
+    if (goal->max_ms > 0.0 && !isnan(estimate->ms_standard))
+        cost.ms += estimate->ms_standard;
+    return cost;
+}
+
+uint32_t nook_tune_round_up(double views, uint32_t period)
+{
+    return (uint32_t)ceil(views / period) * period;
 }
 
 double nook_tune_views_needed(const nook_tune_estimate *estimate, double part)
 {
+    if (!(estimate->cost.error > 0.0))
+        return INFINITY;
     double relative = estimate->error_standard / estimate->cost.error;
     return 18.0 * relative * relative * estimate->views / (part * part); /* 3 sqrt(2 / n) sigma <= part */
 }

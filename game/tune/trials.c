@@ -52,9 +52,10 @@ nook_result nook_tune_trials_extend(nook_tune_trials *trials, nook_tune_trial *t
     if (desc->tell)
         desc->tell(desc->user, "confirming", trials->count, trial);
     for (uint32_t view = 0; view < views; view++) {
-        if (view < trial->view_count && !isnan(trial->views[view].ms))
+        bool timed = view < desc->views_few || desc->goal.max_ms > 0.0;
+        if (view < trial->view_count && !(timed && isnan(trial->views[view].ms)))
             continue;
-        nook_result result = measure(trials, trial, view, true);
+        nook_result result = measure(trials, trial, view, timed);
         if (result != NOOK_OK)
             return result;
     }
@@ -88,18 +89,46 @@ static double common_ms(const nook_tune_trial *reference, const nook_tune_trial 
     return sum / count;
 }
 
+uint32_t nook_tune_trials_wanted(const nook_tune_trials *trials, const nook_tune_trial *trial)
+{
+    const nook_tune_search_desc *desc = trials->desc;
+    if (desc->part == 0.0)
+        return desc->views_max;
+    nook_tune_estimate estimate = nook_tune_pool(trial->views, trial->view_count);
+    double needed = nook_tune_views_needed(&estimate, desc->part);
+    uint32_t views = needed < desc->views_max ? nook_tune_round_up(needed, desc->period) : desc->views_max;
+    views = views < desc->views_few ? desc->views_few : views;
+    return views < desc->views_max ? views : desc->views_max;
+}
+
+/* The margins as parts of error and ms, as small as they will be in as many views as are wanted; 1: nothing is known of them. */
+static nook_tune_cost margins(const nook_tune_trials *trials, const nook_tune_trial *reference)
+{
+    nook_tune_cost factors = { 1.0, 1.0 };
+    if (reference->view_count < trials->desc->views_few)
+        return factors;
+    nook_tune_estimate estimate = nook_tune_pool(reference->views, reference->view_count);
+    nook_tune_cost with = nook_tune_with_margin(&trials->desc->goal, &estimate);
+    uint32_t wanted = nook_tune_trials_wanted(trials, reference), count = reference->view_count;
+    double shrinks = wanted > count ? sqrt((double)count / wanted) : 1.0;
+    if (estimate.cost.error > 0.0)
+        factors.error += shrinks * (with.error / estimate.cost.error - 1.0);
+    factors.ms += shrinks * (with.ms / estimate.cost.ms - 1.0);
+    return factors;
+}
+
 nook_tune_cost nook_tune_trials_cost(const nook_tune_trials *trials, const nook_tune_trial *trial)
 {
     const nook_tune_trial *reference = reference_of(trials, trial);
-    nook_tune_cost own = nook_tune_pool(trial->views, trial->view_count).cost;
-    if (reference == trial)
-        return own;
-    nook_tune_cost all = nook_tune_pool(reference->views, reference->view_count).cost;
-    nook_tune_cost part = nook_tune_pool(reference->views, trial->view_count).cost;
-    if (part.error > 0.0)
-        own.error *= all.error / part.error;
-    own.ms *= all.ms / common_ms(reference, trial);
-    return own;
+    nook_tune_cost own = nook_tune_pool(trial->views, trial->view_count).cost, factors = margins(trials, reference);
+    if (reference != trial) {
+        nook_tune_cost all = nook_tune_pool(reference->views, reference->view_count).cost;
+        nook_tune_cost part = nook_tune_pool(reference->views, trial->view_count).cost;
+        if (part.error > 0.0)
+            own.error *= all.error / part.error;
+        own.ms *= all.ms / common_ms(reference, trial);
+    }
+    return (nook_tune_cost){ own.error * factors.error, own.ms * factors.ms };
 }
 
 nook_tune_trial *nook_tune_trials_best(const nook_tune_trials *trials, uint32_t technique)

@@ -20,10 +20,19 @@ nook_tune_trial *nook_tune_trials_find(const nook_tune_trials *trials, const noo
 /** Tries a point in the first views, unless it has been. There must be room. @return what measure returned */
 nook_result nook_tune_trials_try(nook_tune_trials *trials, const char *doing, const nook_tune_point *point);
 
-/** Measures and times a trial in that many views. @return what measure returned */
+/**
+ * Measures a trial in that many views. It is timed in all where time is limited, else in the first views_few: the winner is timed again
+ * at the end. @return what measure returned
+ */
 nook_result nook_tune_trials_extend(nook_tune_trials *trials, nook_tune_trial *trial, uint32_t views);
 
-/** What a trial would do in as many views as any setting of its technique was measured in. */
+/** In how many views a trial must be measured to be told: as its own spread asks for, [views_few, views_max]. */
+uint32_t nook_tune_trials_wanted(const nook_tune_trials *trials, const nook_tune_trial *trial);
+
+/**
+ * What a trial would do in as many views as any setting of its technique was measured in; of what the goal limits, with the standard
+ * error on top that it would have in as many views as are wanted (of the technique, once one was measured in views_few).
+ */
 nook_tune_cost nook_tune_trials_cost(const nook_tune_trials *trials, const nook_tune_trial *trial);
 
 /** The best by that. @param technique  of the space, or UINT32_MAX: all @return NULL: none was tried */

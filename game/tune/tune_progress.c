@@ -43,11 +43,13 @@ void nook_tune_progress_search(nook_tune_progress *progress, const char *doing, 
     show(progress, search_part * tried / progress->tries_max, text);
 }
 
-void nook_tune_progress_proof(nook_tune_progress *progress, uint32_t view, uint32_t views)
+void nook_tune_progress_proof(nook_tune_progress *progress, bool held_back, uint32_t view, uint32_t views)
 {
     char text[128];
-    snprintf(text, sizeof text, "proof on other cameras, %u of %u", view + 1, views);
-    show(progress, search_part + (1.0 - search_part) * view / views, text);
+    double done = 0.5 * ((double)view / views + held_back);
+    snprintf(text, sizeof text, "%s, %u of %u", held_back ? "proof on held-back cameras" : "timing the winner afresh",
+             view + 1, views);
+    show(progress, search_part + (1.0 - search_part) * done, text);
 }
 
 void nook_tune_progress_end(nook_tune_progress *progress)

@@ -15,6 +15,7 @@ nook_tune_progress nook_tune_progress_begin(const nook_tune_goal *goal, uint32_t
 /** @param best  so far; NULL: none yet */
 void nook_tune_progress_search(nook_tune_progress *progress, const char *doing, uint32_t tried,
                                const nook_tune_trial *best);
-void nook_tune_progress_proof(nook_tune_progress *progress, uint32_t view, uint32_t views);
+/** @param held_back  the cameras that nothing was chosen by; before these the winner is timed afresh in the others */
+void nook_tune_progress_proof(nook_tune_progress *progress, bool held_back, uint32_t view, uint32_t views);
 /** Clears the line. */
 void nook_tune_progress_end(nook_tune_progress *progress);

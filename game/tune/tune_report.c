@@ -42,7 +42,7 @@ static const char *print_goal(const nook_tune_goal *goal, char out[96])
 nook_result nook_tune_report_write(const nook_tune_result *result, const nook_tune_options *options,
                                    const nook_stage *stage)
 {
-    const nook_tune_estimate *predicted = &result->outcome.estimate, *actual = &result->actual;
+    const nook_tune_estimate *predicted = &result->predicted, *actual = &result->actual;
     nook_settings_file file = { .setting = result->outcome.best.setting, .r_max = result->r_max };
     char comment[2048], date[NOOK_ORIGIN_DATE_SIZE], machine[NOOK_ORIGIN_MACHINE_SIZE], goal[96];
     snprintf(file.falloff, sizeof file.falloff, "%s", result->falloff);
@@ -65,65 +65,106 @@ nook_result nook_tune_report_write(const nook_tune_result *result, const nook_tu
 
 /* ---- Text --------------------------------------------------------------------------------------------------------- */
 
-static void print_found(const nook_tune_result *result, FILE *stream)
+static const char *over(double value, double limit)
 {
-    const nook_tune_estimate *predicted = &result->outcome.estimate, *actual = &result->actual;
+    return limit > 0.0 && value > limit ? "  over budget" : "";
+}
+
+static void print_found(const nook_tune_result *result, const nook_tune_goal *goal, FILE *stream)
+{
+    const nook_tune_estimate *predicted = &result->predicted, *actual = &result->actual;
     fprintf(stream, "%-10s %22s %22s %12s\n", "", "predicted", "held-back cameras", "difference");
-    fprintf(stream, "%-10s %11.4f +- %.4f   %11.4f +- %.4f   %+10.1f %% (standard error %.1f %%)\n", "error",
+    fprintf(stream, "%-10s %11.4f +- %.4f   %11.4f +- %.4f   %+10.1f %% (standard error %.1f %%)%s\n", "error",
             predicted->cost.error, predicted->error_standard, actual->cost.error, actual->error_standard,
-            percent * result->difference, percent * result->difference_standard);
-    fprintf(stream, "%-10s %11.2f %22.2f   %+18.1f %%\n", "ms", predicted->cost.ms, actual->cost.ms,
-            percent * (actual->cost.ms / predicted->cost.ms - 1.0));
-    fprintf(stream, "%-10s %11u %22u\n\n", "cameras", predicted->views, actual->views);
+            percent * result->difference, percent * result->difference_standard,
+            over(actual->cost.error, goal->max_error));
+    fprintf(stream, "%-10s %11.2f +- %-6.2f   %11.2f +- %-6.2f   %+10.1f %% (+-: of its own frames)%s\n", "ms",
+            predicted->cost.ms, predicted->ms_spread, actual->cost.ms, actual->ms_spread,
+            percent * (actual->cost.ms / predicted->cost.ms - 1.0),
+            over(fmax(actual->cost.ms, predicted->cost.ms), goal->max_ms));
+    fprintf(stream, "%-10s %11u %22u\n", "cameras", predicted->views, actual->views);
+    fprintf(
+        stream,
+        "Held back: the other one of each pair of near views, none of them used to choose. They show that the setting\n"
+        "does in such views what it did where it was chosen; not what it does in views of another kind. The predicted\n"
+        "error is that of the best of %u settings, so rather too small; its ms were taken afresh.\n\n",
+        result->outcome.tried);
+}
+
+/* Why nothing is written, and what to do. */
+static void print_failures(const nook_tune_result *result, const nook_tune_goal *goal, FILE *stream)
+{
+    const nook_tune_estimate *actual = &result->actual;
+    if (!result->near)
+        fprintf(stream,
+                "The error on the held-back cameras is %+.1f %% off the predicted one, over the %.0f %% that "
+                "are allowed: nothing is written; give more --cameras.\n",
+                percent * result->difference, percent * NOOK_TUNE_TOLERANCE);
+    if (!result->error_holds)
+        fprintf(
+            stream,
+            "The error on the held-back cameras is %.1f %% over the budget, more than its standard error of %.1f %%: "
+            "nothing is written; give a smaller --max-error or more --cameras.\n",
+            percent * (actual->cost.error / goal->max_error - 1.0), percent * actual->error_standard / goal->max_error);
+    if (!result->ms_holds)
+        fprintf(stream,
+                "The time is over the budget of %g ms by more than its own frames differ: nothing is written; give a "
+                "smaller --max-ms, or an idle machine.\n",
+                goal->max_ms);
 }
 
 /* What a reader should know before he trusts the numbers. */
-static void print_doubts(const nook_tune_result *result, const nook_tune_options *options, FILE *stream)
+static void print_doubts(const nook_tune_result *result, FILE *stream)
 {
+    const nook_tune_estimate *predicted = &result->predicted;
     if (2.0 * result->difference_standard > NOOK_TUNE_TOLERANCE)
         fprintf(stream,
                 "The views differ so much that two sets of %u can differ by %.0f %% by chance; more: --cameras N\n",
                 result->actual.views, percent * 2.0 * result->difference_standard);
-    if (!result->holds)
-        fprintf(stream,
-                "The error on the held-back cameras is %+.1f %% off the predicted one, over the %.0f %% that "
-                "are allowed: nothing is written.\n",
-                percent * result->difference, percent * NOOK_TUNE_TOLERANCE);
-    if (options->goal.max_error > 0.0 && result->actual.cost.error > options->goal.max_error)
-        fprintf(stream, "On the held-back cameras the error is %.1f %% over the budget.\n",
-                percent * (result->actual.cost.error / options->goal.max_error - 1.0));
-    if (options->goal.max_ms > 0.0 && result->actual.cost.ms > options->goal.max_ms)
-        fprintf(stream, "On the held-back cameras the time is %.1f %% over the budget.\n",
-                percent * (result->actual.cost.ms / options->goal.max_ms - 1.0));
-    if (fabs(log(result->actual.cost.ms / result->outcome.estimate.cost.ms)) > log(1.0 + NOOK_TUNE_TOLERANCE))
+    if (fabs(nook_tune_log_ratio(result->actual.cost.ms, predicted->cost.ms)) > log(1.0 + NOOK_TUNE_TOLERANCE))
         fprintf(stream, "The times differ by more than %.0f %%: was the machine busy with other things?\n",
                 percent * NOOK_TUNE_TOLERANCE);
-    if (result->noise_worst > 0.5 * result->outcome.estimate.cost.error)
-        fprintf(stream, "The truth's own noise is up to %.4f and was subtracted; less of it: --reference-rays N\n",
-                result->noise_worst);
+    if (fmax(predicted->noise, result->actual.noise) > NOOK_TUNE_TRUTH_NOISE * predicted->cost.error)
+        fprintf(stream,
+                "The truth's own noise is %.4f, over a quarter of the error, and was subtracted; less of it: "
+                "--reference-rays N\n",
+                fmax(predicted->noise, result->actual.noise));
+    if (!result->outcome.settled)
+        fprintf(stream,
+                "To the last, others promised more that did not hold in more views: there may be better ones.\n");
+}
+
+static void print_proof(const nook_tune_result *result, const nook_tune_options *options, const char *setting,
+                        FILE *stream)
+{
+    fprintf(stream, "%s\n\n", setting);
+    print_found(result, &options->goal, stream);
+    print_doubts(result, stream);
+    print_failures(result, &options->goal, stream);
+    if (result->holds)
+        fprintf(stream, "Written: %s\n", options->out);
 }
 
 void nook_tune_report_print(const nook_tune_result *result, const nook_tune_options *options, FILE *stream)
 {
     const nook_tune_outcome *outcome = &result->outcome;
-    const nook_tune_cost *cost = &outcome->estimate.cost;
+    const nook_tune_estimate *predicted = &result->predicted;
     char text[NOOK_SETTING_TEXT_MAX], goal[96];
     nook_setting_print(&outcome->best.setting, text);
     print_goal(&options->goal, goal);
-    if (outcome->fits) {
-        fprintf(stream, "%s\n\n", text);
-        print_found(result, stream);
-        print_doubts(result, options, stream);
-        if (result->holds)
-            fprintf(stream, "Written: %s\n", options->out);
-        fprintf(stream, "%s: ", text);
-    } else {
+    if (outcome->fits)
+        print_proof(result, options, text, stream);
+    if (outcome->fits)
+        fprintf(stream, "%s%s: ", result->holds ? "" : "not proven: ", text);
+    else
         fprintf(stream, "nothing within %s; nearest %s: ", goal, text);
-    }
-    fprintf(stream, "error %.4f, %.2f ms", cost->error, cost->ms);
+    fprintf(stream, "error %.4f, %.2f ms", predicted->cost.error, predicted->cost.ms);
     if (outcome->fits)
         fprintf(stream, "; held back %.4f (%+.1f %%), %.2f ms", result->actual.cost.error, percent * result->difference,
                 result->actual.cost.ms);
+    else
+        fprintf(stream, " (+- %.4f and %.2f, which must be within too)", predicted->error_standard,
+                predicted->ms_standard);
     fprintf(stream, "; %u of %.0f settings tried, %.0f s\n", outcome->tried, result->settings, result->seconds);
 }
 
@@ -136,6 +177,9 @@ static void write_estimate(nook_json *json, const char *key, const nook_tune_est
     nook_json_member_number(json, "error", estimate->cost.error);
     nook_json_member_number(json, "error_standard_error", estimate->error_standard);
     nook_json_member_number(json, "ms", estimate->cost.ms);
+    nook_json_member_number(json, "ms_standard_error", estimate->ms_standard);
+    nook_json_member_number(json, "ms_spread", estimate->ms_spread);
+    nook_json_member_number(json, "truth_noise", estimate->noise);
     nook_json_member_integer(json, "cameras", estimate->views);
     nook_json_end_object(json);
 }
@@ -161,14 +205,17 @@ nook_result nook_tune_report_print_json(const nook_tune_result *result, const no
     write_limit(&json, "max_ms", options->goal.max_ms);
     nook_json_member_bool(&json, "fits", result->outcome.fits);
     nook_json_member_string(&json, "setting", nook_setting_print(&result->outcome.best.setting, text));
-    write_estimate(&json, "predicted", &result->outcome.estimate);
+    write_estimate(&json, "predicted", &result->predicted);
     if (result->outcome.fits) {
         write_estimate(&json, "held_back", &result->actual);
         nook_json_member_number(&json, "difference", result->difference);
         nook_json_member_number(&json, "difference_standard_error", result->difference_standard);
+        nook_json_member_number(&json, "ms_chosen_by", result->outcome.estimate.cost.ms);
+        nook_json_member_bool(&json, "error_holds", result->error_holds);
+        nook_json_member_bool(&json, "ms_holds", result->ms_holds);
     }
     nook_json_member_bool(&json, "holds", result->holds);
-    nook_json_member_number(&json, "truth_noise", result->noise_worst);
+    nook_json_member_bool(&json, "settled", result->outcome.settled);
     nook_json_member_integer(&json, "tried", result->outcome.tried);
     nook_json_member_integer(&json, "measurements", result->outcome.measurements);
     nook_json_member_number(&json, "settings", result->settings);

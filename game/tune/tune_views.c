@@ -77,8 +77,11 @@ nook_result nook_tune_views_measure(nook_tune_views *views, const nook_setting *
         return nook_fail(NOOK_E_DEVICE, "%s: %llu pixels are not finite; its error means nothing",
                          setting->technique->name, (unsigned long long)sample.truth.non_finite);
     /* The truth's noise is chance of its own: its square is a part of the squared difference, and known. */
-    double squared = sample.truth.rmse * sample.truth.rmse - sample.reference_noise * sample.reference_noise;
-    *out = (nook_tune_view){ fmax(squared, 0.0), (double)sample.truth.count, timed ? sample.ms_median : NAN };
-    views->noise_worst = fmax(views->noise_worst, sample.reference_noise);
+    double noise = sample.reference_noise;
+    *out = (nook_tune_view){ .squared = sample.truth.rmse * sample.truth.rmse - noise * noise,
+                             .pixels = (double)sample.truth.count,
+                             .ms = timed ? sample.ms_median : NAN,
+                             .ms_spread = timed ? 0.5 * (sample.ms_max - sample.ms_min) : NAN,
+                             .noise = noise };
     return NOOK_OK;
 }

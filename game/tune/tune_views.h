@@ -24,7 +24,6 @@ typedef struct nook_tune_views {
     nook_camera cameras[NOOK_TUNE_SETS][NOOK_TUNE_VIEWS_MAX];
     struct nook_site *sites[NOOK_TUNE_SETS][NOOK_TUNE_VIEWS_MAX];
     uint32_t resolution; /**< That the stage is filled with; 0: the default. */
-    double noise_worst;  /**< Of the truths looked at so far. */
 } nook_tune_views;
 
 /**

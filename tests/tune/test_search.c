@@ -27,10 +27,13 @@ typedef struct law {
 typedef struct world {
     nook_tune_space space;
     law laws[NOOK_TUNE_TECHNIQUES_MAX];
-    double unevenness; /* of views */
+    double unevenness; /* of views, for all alike */
+    double own;        /* of views, for each technique another: as large as this, either way */
     double chance;     /* of a setting in a view: as large as this, either way */
+    double ms_noise;   /* of each timing */
     uint32_t measured, failing_at;
     uint32_t tells;
+    uint32_t seed; /* of timings */
 } world;
 
 static double value_of(const nook_setting *setting, const char *name)
@@ -74,28 +77,65 @@ static uint32_t technique_of(const world *w, const nook_setting *setting)
     return i;
 }
 
-/* In [-1, 1], another for every setting and view. */
-static double chance_of(const nook_setting *setting, uint32_t view)
+static double chance_of_hash(uint32_t hash)
 {
-    char text[NOOK_SETTING_TEXT_MAX];
-    uint32_t hash = 2166136261u ^ view * 2654435761u;
-    for (const char *at = nook_setting_print(setting, text); *at; at++)
-        hash = (hash ^ (uint32_t)(unsigned char)*at) * 16777619u;
     hash ^= hash >> 15;
     hash *= 2246822519u;
+    hash ^= hash >> 13;
+    hash *= 3266489917u;
+    hash ^= hash >> 16;
     return (hash >> 8) / 8388608.0 - 1.0;
 }
 
+/* In [-1, 1], another for every text and number. */
+static double chance_of(const char *text, uint32_t number)
+{
+    uint32_t hash = 2166136261u ^ number * 2654435761u;
+    for (; *text; text++)
+        hash = (hash ^ (uint32_t)(unsigned char)*text) * 16777619u;
+    return chance_of_hash(hash);
+}
+
+/* What a view does to all errors; of a technique also what it does to that one alone. */
+static double lighter(const world *w, const nook_setting *setting, uint32_t view)
+{
+    char text[NOOK_SETTING_TEXT_MAX];
+    return (1.0 + w->unevenness * sin(2.0 * view)) * (1.0 + w->own * chance_of(setting->technique->name, view)) +
+           w->chance * chance_of(nook_setting_print(setting, text), view);
+}
+
+static double slower(const world *w, const nook_setting *setting, uint32_t view)
+{
+    return (1.0 + 0.5 * w->unevenness * cos(5.0 * view)) *
+           (1.0 + 0.5 * w->own * chance_of(setting->technique->name, 1000 + view));
+}
+
+/* No two timings are alike, not even of the same setting in the same view. */
 static nook_result measure(void *user, const nook_setting *setting, uint32_t view, bool timed, nook_tune_view *out)
 {
     world *w = user;
     nook_tune_cost cost = cost_of(w, technique_of(w, setting), setting);
     if (w->measured++ == w->failing_at)
         return nook_fail(NOOK_E_DEVICE, "the device is gone");
-    double lighter = 1.0 + w->unevenness * sin(2.0 * view) + w->chance * chance_of(setting, view),
-           faster = 1.0 + 0.5 * w->unevenness * cos(5.0 * view);
-    *out = (nook_tune_view){ pow(cost.error * lighter, 2.0), 1000.0, timed ? cost.ms * faster : NAN };
+    double ms = cost.ms * slower(w, setting, view) * (1.0 + w->ms_noise * chance_of("timing", w->measured + w->seed));
+    *out = (nook_tune_view){ .squared = pow(cost.error * lighter(w, setting, view), 2.0),
+                             .pixels = 1000.0,
+                             .ms = timed ? ms : NAN,
+                             .ms_spread = timed ? w->ms_noise * ms : NAN };
     return NOOK_OK;
+}
+
+/* What a setting does over all views that there are: more of them than the search may look at. */
+static nook_tune_cost truth_of(const world *w, const nook_setting *setting)
+{
+    enum { VIEWS = 2000 };
+    nook_tune_cost cost = cost_of(w, technique_of(w, setting), setting);
+    double squares = 0.0, ms = 0.0;
+    for (uint32_t view = 0; view < VIEWS; view++) {
+        squares += pow(lighter(w, setting, view), 2.0);
+        ms += slower(w, setting, view);
+    }
+    return (nook_tune_cost){ cost.error * sqrt(squares / VIEWS), cost.ms * ms / VIEWS };
 }
 
 static void tell(void *user, const char *doing, uint32_t tried, const nook_tune_trial *best)
@@ -137,7 +177,7 @@ static nook_tune_search_desc desc_of(world *w, double max_error, double max_ms)
                                     .views_max = 24,
                                     .period = 1,
                                     .part = 0.15,
-                                    .tries_max = 120,
+                                    .tries_max = NOOK_TUNE_TRIES_DEFAULT,
                                     .measure = measure,
                                     .tell = tell,
                                     .user = w };
@@ -212,6 +252,24 @@ static nook_tune_cost best_of_all(uint32_t technique, const nook_tune_goal *goal
     return best;
 }
 
+/* As best_of_all, over all views: of a technique they all turn errors and times by the same factors. */
+static nook_tune_cost best_over_views(const world *w, const nook_tune_goal *goal)
+{
+    nook_tune_cost best = { INFINITY, INFINITY };
+    for (uint32_t t = 0; t < all.technique_count; t++) {
+        nook_tune_point point = nook_tune_initial(&w->space, t);
+        nook_setting setting = nook_tune_setting(&w->space, &point);
+        nook_tune_cost here = truth_of(w, &setting), flat = cost_of(w, t, &setting);
+        for (size_t i = 0; i < all.counts[t]; i++) {
+            nook_tune_cost cost = { all.costs[t][i].error * here.error / flat.error,
+                                    all.costs[t][i].ms * here.ms / flat.ms };
+            if (nook_tune_better(goal, &cost, &best))
+                best = cost;
+        }
+    }
+    return best;
+}
+
 static void check_against(uint32_t technique, world *w, double max_error, double max_ms, double factor)
 {
     nook_tune_search_desc desc = desc_of(w, max_error, max_ms);
@@ -223,7 +281,8 @@ static void check_against(uint32_t technique, world *w, double max_error, double
                   max_error, max_ms, true_cost.error, true_cost.ms, best.error, best.ms, found.tried,
                   found.measurements, nook_setting_print(&found.best.setting, text));
     assert_true(found.fits);
-    assert_true(nook_tune_fits(&desc.goal, &found.estimate.cost));
+    nook_tune_cost with_margin = nook_tune_with_margin(&desc.goal, &found.estimate);
+    assert_true(nook_tune_fits(&desc.goal, &with_margin));
     assert_true(nook_tune_objective(&desc.goal, &true_cost) <= factor * nook_tune_objective(&desc.goal, &best));
     assert_true(found.tried <= desc.tries_max && found.tried < 0.2 * nook_tune_space_size(&w->space));
     assert_int_equal(found.measurements, w->measured);
@@ -251,7 +310,8 @@ static void test_the_most_accurate_setting_is_found_where_views_are_alike(void *
     static const double times[] = { 5.0, 10.0, 25.0, 60.0, 200.0 };
     for (size_t i = 0; i < NOOK_COUNT(times); i++) {
         world w = make_world(0.0);
-        check_against_all(&w, 0.0, times[i], 1.15);
+        /* 5 ms, of which 3 are every setting's, are far from where any technique starts: 70 tries end on the way */
+        check_against_all(&w, 0.0, times[i], times[i] < 10.0 ? 1.35 : 1.15);
     }
 }
 
@@ -286,6 +346,50 @@ static void test_chance_does_not_keep_it_from_what_fits(void **state)
     }
 }
 
+/*
+ * What a scene is like: views that are hard for one technique and easy for another, and times that chance is in. A budget may then be
+ * missed by the error of what was measured; the best is what is best over all views.
+ */
+static void test_views_that_each_technique_takes_in_its_own_way_and_noisy_times(void **state)
+{
+    (void)state;
+    static const double noises[] = { 0.05, 0.1 };
+    for (size_t i = 0; i < 2 * NOOK_COUNT(noises) * 4; i++) {
+        world w = make_world(0.3);
+        bool by_ms = i % 2;
+        w.own = 0.25;
+        w.ms_noise = noises[i / 2 % NOOK_COUNT(noises)];
+        w.seed = (uint32_t)i * 7919u;
+        nook_tune_search_desc desc = desc_of(&w, by_ms ? 0.0 : 0.06, by_ms ? 20.0 : 0.0);
+        nook_tune_outcome found = must_search(&w, &desc);
+        nook_tune_cost true_cost = truth_of(&w, &found.best.setting), best = best_over_views(&w, &desc.goal);
+        print_message(
+            "%s, noise %g: %.4f at %.2f ms, predicted %.4f at %.2f, best %.4f at %.2f ms, %u tried, %u measured\n",
+            by_ms ? "20 ms" : "error 0.06", w.ms_noise, true_cost.error, true_cost.ms, found.estimate.cost.error,
+            found.estimate.cost.ms, best.error, best.ms, found.tried, found.measurements);
+        assert_true(found.fits);
+        assert_true(nook_tune_excess(&desc.goal, &true_cost) < log(1.05));
+        assert_true(nook_tune_objective(&desc.goal, &true_cost) <=
+                    (by_ms ? 1.15 : 1.5) * nook_tune_objective(&desc.goal, &best));
+    }
+}
+
+/* The best is out of reach of the doubts: after its last view it is what fits that is told, not what was measured most. */
+static void test_what_fits_in_few_views_is_told_before_what_does_not_in_many(void **state)
+{
+    (void)state;
+    for (uint32_t seed = 0; seed < 8; seed++) {
+        world w = make_world(0.2);
+        w.chance = 0.5; /* so much that what looks best seldom is */
+        w.ms_noise = 0.1;
+        w.seed = seed * 104729u;
+        nook_tune_search_desc desc = desc_of(&w, 0.05 + 0.005 * seed, 0.0);
+        nook_tune_outcome found = must_search(&w, &desc);
+        assert_true(found.fits);
+        assert_true(found.estimate.views >= desc.views_few);
+    }
+}
+
 static void test_with_two_limits_the_error_decides_among_what_is_within_both(void **state)
 {
     (void)state;
@@ -310,7 +414,7 @@ static void test_when_nothing_fits_the_nearest_is_told(void **state)
     }
 }
 
-static void test_the_winner_is_timed_in_as_many_views_as_it_is_measured(void **state)
+static void test_the_winner_is_measured_in_as_many_views_as_its_spread_asks_for(void **state)
 {
     (void)state;
     world w = make_world(0.3);
@@ -318,7 +422,7 @@ static void test_the_winner_is_timed_in_as_many_views_as_it_is_measured(void **s
     nook_tune_outcome found = must_search(&w, &desc);
     assert_true(found.estimate.views >= desc.views_few && found.estimate.views <= desc.views_max);
     for (uint32_t i = 0; i < found.estimate.views; i++)
-        assert_true(isfinite(found.best.views[i].ms));
+        assert_true(isfinite(found.best.views[i].ms) || i >= desc.views_few);
     double relative = 3.0 * sqrt(2.0) * found.estimate.error_standard / found.estimate.cost.error;
     assert_true(relative < 1.3 * desc.part || found.estimate.views == desc.views_max);
 }
@@ -389,9 +493,11 @@ int main(void)
         cmocka_unit_test(test_the_most_accurate_setting_is_found_where_views_are_alike),
         cmocka_unit_test(test_views_that_differ_cost_little),
         cmocka_unit_test(test_chance_does_not_keep_it_from_what_fits),
+        cmocka_unit_test(test_views_that_each_technique_takes_in_its_own_way_and_noisy_times),
+        cmocka_unit_test(test_what_fits_in_few_views_is_told_before_what_does_not_in_many),
         cmocka_unit_test(test_with_two_limits_the_error_decides_among_what_is_within_both),
         cmocka_unit_test(test_when_nothing_fits_the_nearest_is_told),
-        cmocka_unit_test(test_the_winner_is_timed_in_as_many_views_as_it_is_measured),
+        cmocka_unit_test(test_the_winner_is_measured_in_as_many_views_as_its_spread_asks_for),
         cmocka_unit_test(test_numbers_of_views_follow_the_period_of_the_cameras),
         cmocka_unit_test(test_a_few_tries_are_kept_to),
         cmocka_unit_test(test_a_measurement_that_fails_ends_the_search),

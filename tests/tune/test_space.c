@@ -130,14 +130,49 @@ static void test_of_two_that_do_not_fit_the_nearer_is_better(void **state)
 static void test_views_are_pooled_over_their_pixels(void **state)
 {
     (void)state;
-    const nook_tune_view views[] = { { 0.01, 100.0, 4.0 }, { 0.04, 300.0, NAN }, { 0.09, 100.0, 8.0 } };
+    const nook_tune_view views[] = { { 0.01, 100.0, 4.0, 1.0, 0.02 },
+                                     { 0.04, 300.0, NAN, NAN, 0.01 },
+                                     { 0.09, 100.0, 8.0, 2.0, 0.03 } };
     nook_tune_estimate estimate = nook_tune_pool(views, 3);
     assert_true(fabs(estimate.cost.error - sqrt((1.0 + 12.0 + 9.0) / 500.0)) < 1e-12);
     assert_true(fabs(estimate.cost.ms - 6.0) < 1e-12);
+    assert_true(fabs(estimate.ms_standard - 2.0) < 1e-12); /* 4 and 8: a deviation of sqrt 8, of two */
+    assert_true(fabs(estimate.ms_spread - 1.5) < 1e-12);
+    assert_true(fabs(estimate.noise - sqrt((0.04 + 0.03 + 0.09) / 500.0)) < 1e-12);
     assert_int_equal(estimate.views, 3);
     assert_true(isnan(nook_tune_pool(views, 1).error_standard));
-    const nook_tune_view alike[] = { { 0.01, 100.0, 4.0 }, { 0.01, 900.0, 4.0 } };
+    const nook_tune_view alike[] = { { 0.01, 100.0, 4.0, 0.0, 0.0 }, { 0.01, 900.0, 4.0, 0.0, 0.0 } };
     assert_true(nook_tune_pool(alike, 2).error_standard == 0.0);
+}
+
+/* Where the truth's noise is about all there is, half of the views come out negative. */
+static void test_errors_below_the_truths_noise_cancel_before_they_are_cut_off(void **state)
+{
+    (void)state;
+    const nook_tune_view views[] = { { .squared = 0.0004, .pixels = 100.0, .ms = 1.0 },
+                                     { .squared = -0.0002, .pixels = 100.0, .ms = 1.0 } };
+    assert_true(fabs(nook_tune_pool(views, 2).cost.error - 0.01) < 1e-12);
+    nook_tune_estimate nothing = nook_tune_pool(&views[1], 1);
+    assert_true(nothing.cost.error == 0.0);
+    const nook_tune_goal goal = { .max_error = 0.1 }, by_ms = { .max_ms = 10.0 };
+    assert_true(nook_tune_excess(&goal, &nothing.cost) == 0.0);
+    assert_true(isfinite(nook_tune_log_ratio(0.0, 0.0)) && isfinite(nook_tune_log_ratio(0.1, 0.0)));
+    const nook_tune_cost some = { 0.01, 1.0 };
+    assert_true(nook_tune_better(&by_ms, &nothing.cost, &some));
+    assert_true(isinf(nook_tune_views_needed(&nothing, 0.15)));
+}
+
+static void test_the_budget_is_held_against_one_standard_error_more(void **state)
+{
+    (void)state;
+    const nook_tune_estimate estimate = { .cost = { 0.095, 9.5 }, .error_standard = 0.006, .ms_standard = 0.6 };
+    const nook_tune_goal by_error = { .max_error = 0.1 }, by_ms = { .max_ms = 10.0 }, loose = { 0.102, 10.2 };
+    nook_tune_cost error = nook_tune_with_margin(&by_error, &estimate), ms = nook_tune_with_margin(&by_ms, &estimate);
+    assert_true(nook_tune_fits(&by_error, &estimate.cost) && !nook_tune_fits(&by_error, &error));
+    assert_true(nook_tune_fits(&by_ms, &estimate.cost) && !nook_tune_fits(&by_ms, &ms));
+    assert_true(error.ms == 9.5 && ms.error == 0.095); /* what is not limited is as it is */
+    nook_tune_cost both = nook_tune_with_margin(&loose, &estimate);
+    assert_true(nook_tune_fits(&loose, &both));
 }
 
 static double chance(uint32_t *seed)
@@ -157,7 +192,7 @@ static void test_the_standard_error_is_what_it_says(void **state)
         nook_tune_view views[VIEWS];
         for (int k = 0; k < VIEWS; k++) {
             double squared = 0.01 * (0.4 + 1.2 * chance(&seed));
-            views[k] = (nook_tune_view){ squared, 500.0 + 1000.0 * chance(&seed), 1.0 };
+            views[k] = (nook_tune_view){ .squared = squared, .pixels = 500.0 + 1000.0 * chance(&seed), .ms = 1.0 };
         }
         nook_tune_estimate estimate = nook_tune_pool(views, VIEWS);
         sum += estimate.cost.error;
@@ -173,7 +208,7 @@ static void test_the_number_of_views_follows_from_their_spread(void **state)
 {
     (void)state;
     /* 8 views give 5 % standard error, so one view 14 %; two sets of n: 3 sqrt(2 / n) 14 % = 15 % */
-    const nook_tune_estimate estimate = { { 0.1, 1.0 }, 0.005, 8 };
+    const nook_tune_estimate estimate = { .cost = { 0.1, 1.0 }, .error_standard = 0.005, .views = 8 };
     assert_true(fabs(nook_tune_views_needed(&estimate, 0.15) - 18.0 * 8.0 * 0.0025 / 0.0225) < 1e-9);
 }
 
@@ -188,6 +223,8 @@ int main(void)
         cmocka_unit_test(test_what_fits_is_better_than_what_does_not),
         cmocka_unit_test(test_of_two_that_do_not_fit_the_nearer_is_better),
         cmocka_unit_test(test_views_are_pooled_over_their_pixels),
+        cmocka_unit_test(test_errors_below_the_truths_noise_cancel_before_they_are_cut_off),
+        cmocka_unit_test(test_the_budget_is_held_against_one_standard_error_more),
         cmocka_unit_test(test_the_standard_error_is_what_it_says),
         cmocka_unit_test(test_the_number_of_views_follows_from_their_spread),
     };
