@@ -11,6 +11,13 @@ nook_progress nook_progress_begin(const char *what)
     return (nook_progress){ what, now, now, isatty(STDERR_FILENO) == 1, false };
 }
 
+nook_progress nook_progress_begin_within(const nook_progress *whole, const char *what)
+{
+    nook_progress progress = nook_progress_begin(what);
+    progress.shown = whole && whole->shown && !whole->terminal;
+    return progress;
+}
+
 void nook_progress_update(void *user, double fraction)
 {
     nook_progress *progress = user;

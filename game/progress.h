@@ -12,6 +12,11 @@ typedef struct nook_progress {
 } nook_progress;
 
 nook_progress nook_progress_begin(const char *what);
+/**
+ * A part of a longer job: where there is no terminal, and the whole has said what it does, it says nothing.
+ * @param whole  NULL: as nook_progress_begin
+ */
+nook_progress nook_progress_begin_within(const nook_progress *whole, const char *what);
 /** @param user  a nook_progress @param fraction  [0, 1]; may come from any one thread at a time */
 void nook_progress_update(void *user, double fraction);
 void nook_progress_end(nook_progress *progress); /**< Clears the line. */

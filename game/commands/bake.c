@@ -96,7 +96,8 @@ static bool read_request(const nook_app *app, int argc, char **argv, bake_reques
           .kind = NOOK_OPTION_TEXT,
           .target = &out->settings,
           .placeholder = "FILE",
-          .help = "resolution and r_max of a settings file; options given here count more" },
+          .help = "resolution and r_max of a settings file; options given here count more. compare and measure take\n"
+                  "                             the rest of it; verify, extremes and tune take none" },
         { .name = "resolution",
           .kind = NOOK_OPTION_INT,
           .target = &out->resolution,

@@ -51,7 +51,8 @@ bool nook_compare_options_read(const nook_app *app, int argc, char **argv, nook_
           .kind = NOOK_OPTION_TEXT,
           .target = &out->settings,
           .placeholder = "FILE",
-          .help = "a setting, as ./nook tune writes it, beside the reference; options given here count more" },
+          .help = "a setting, as ./nook tune writes it, beside the reference; options given here count more;\n"
+                  "                             measure and bake take it too; verify, extremes and tune take none" },
         { .name = "camera",
           .kind = NOOK_OPTION_TEXT,
           .target = &out->camera,

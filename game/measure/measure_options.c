@@ -52,7 +52,9 @@ bool nook_measure_options_read(const nook_app *app, int argc, char **argv, nook_
           .kind = NOOK_OPTION_TEXT,
           .target = &out->settings,
           .placeholder = "FILE",
-          .help = "measure this setting, as ./nook tune writes it, beside those of the sweep" },
+          .help =
+              "measure this setting, as ./nook tune writes it, beside those of the sweep; compare and bake take it\n"
+              "                             too; verify, extremes and tune take none" },
         { .name = "scenes",
           .kind = NOOK_OPTION_TEXT,
           .target = &out->scene_folder,

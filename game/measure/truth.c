@@ -189,7 +189,8 @@ nook_result nook_truth_refine(nook_truth *truth, nook_stage *stage, double noise
 {
     uint32_t frame_index = stage->frame_index;
     nook_progress *outer = stage->progress;
-    nook_progress progress = nook_progress_begin(truth->screen ? "tracing what the screen holds" : "tracing the truth");
+    nook_progress progress =
+        nook_progress_begin_within(outer, truth->screen ? "tracing what the screen holds" : "tracing the truth");
     nook_result result = NOOK_OK;
     stage->progress = NULL;
     while (truth->noise > noise && plan_batches(truth, noise) > truth->batches && result == NOOK_OK &&

@@ -52,7 +52,7 @@ nook_result nook_tune_trials_extend(nook_tune_trials *trials, nook_tune_trial *t
     if (desc->tell)
         desc->tell(desc->user, "confirming", trials->count, trial);
     for (uint32_t view = 0; view < views; view++) {
-        bool timed = view < desc->views_few || desc->goal.max_ms > 0.0;
+        bool timed = 2 * view < desc->views_few || desc->goal.max_ms > 0.0;
         if (view < trial->view_count && !(timed && isnan(trial->views[view].ms)))
             continue;
         nook_result result = measure(trials, trial, view, timed);

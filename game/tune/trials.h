@@ -21,7 +21,7 @@ nook_tune_trial *nook_tune_trials_find(const nook_tune_trials *trials, const noo
 nook_result nook_tune_trials_try(nook_tune_trials *trials, const char *doing, const nook_tune_point *point);
 
 /**
- * Measures a trial in that many views. It is timed in all where time is limited, else in the first views_few: the winner is timed again
+ * Measures a trial in that many views. It is timed in all where time is limited, else in half of views_few: the winner is timed again
  * at the end. @return what measure returned
  */
 nook_result nook_tune_trials_extend(nook_tune_trials *trials, nook_tune_trial *trial, uint32_t views);

@@ -10,7 +10,13 @@ static const double search_part = 0.8;
 nook_tune_progress nook_tune_progress_begin(const nook_tune_goal *goal, uint32_t tries_max)
 {
     double now = nook_clock_ms();
-    return (nook_tune_progress){ goal, tries_max, now, now, isatty(STDERR_FILENO) == 1, false };
+    bool terminal = isatty(STDERR_FILENO) == 1;
+    return (nook_tune_progress){ .goal = goal,
+                                 .tries_max = tries_max,
+                                 .started_ms = now,
+                                 .shown_ms = now,
+                                 .terminal = terminal,
+                                 .whole = { .what = "tuning", .terminal = terminal, .shown = !terminal } };
 }
 
 /* The time left, as if the rest went as what is done. */

@@ -2,6 +2,7 @@
  * tune_progress.h - how far the search is, on standard error: one line that is rewritten on a terminal, else a line now and then.
  */
 #pragma once
+#include "game/progress.h"
 #include "game/tune/trial.h"
 
 typedef struct nook_tune_progress {
@@ -9,6 +10,8 @@ typedef struct nook_tune_progress {
     uint32_t tries_max;
     double started_ms, shown_ms;
     bool terminal, shown;
+    nook_progress
+        whole; /**< For what is inside (nook_progress_begin_within): where there is no terminal, these lines are all. */
 } nook_tune_progress;
 
 nook_tune_progress nook_tune_progress_begin(const nook_tune_goal *goal, uint32_t tries_max);

@@ -68,19 +68,44 @@ static nook_result set_params(nook_stage *stage, const nook_tune_options *option
     return set;
 }
 
-/* The winner, timed and measured in the first views of a set. */
-static nook_result measure_winner(tuning *t, nook_tune_set set, nook_tune_result *result, nook_tune_estimate *out)
+/* In how many of its views the winner is timed: in all where time is limited, else in a few. */
+static uint32_t timed_views(const nook_tune_goal *goal, uint32_t views)
 {
-    uint32_t count = result->outcome.estimate.views;
-    nook_tune_view views[NOOK_TUNE_VIEWS_MAX];
-    for (uint32_t i = 0; i < count; i++) {
-        nook_tune_progress_proof(&t->progress, set == NOOK_TUNE_PROVE, i, count);
+    return goal->max_ms > 0.0 || views < VIEWS_FEW ? views : VIEWS_FEW;
+}
+
+/* Times afresh what was chosen: the times that it was chosen by are among the lucky ones. Its errors would be the same again. */
+static nook_result time_winner(tuning *t, const nook_tune_goal *goal, nook_tune_result *result)
+{
+    nook_tune_trial winner = result->outcome.best;
+    uint32_t timed = timed_views(goal, winner.view_count);
+    for (uint32_t i = 0; i < winner.view_count; i++) {
+        winner.views[i].ms = NAN;
+        if (i >= timed)
+            continue;
+        nook_tune_progress_proof(&t->progress, false, i, timed);
         nook_result measured =
-            nook_tune_views_measure(&t->views, &result->outcome.best.setting, set, i, true, &views[i]);
+            nook_tune_views_measure(&t->views, &winner.setting, NOOK_TUNE_CHOOSE, i, true, &winner.views[i]);
         if (measured != NOOK_OK)
             return measured;
     }
-    *out = nook_tune_pool(views, count);
+    result->predicted = nook_tune_pool(winner.views, winner.view_count);
+    return NOOK_OK;
+}
+
+/* In as many views that nothing was chosen by. */
+static nook_result measure_held_back(tuning *t, const nook_tune_goal *goal, nook_tune_result *result)
+{
+    uint32_t count = result->predicted.views, timed = timed_views(goal, count);
+    nook_tune_view views[NOOK_TUNE_VIEWS_MAX];
+    for (uint32_t i = 0; i < count; i++) {
+        nook_tune_progress_proof(&t->progress, true, i, count);
+        nook_result measured =
+            nook_tune_views_measure(&t->views, &result->outcome.best.setting, NOOK_TUNE_PROVE, i, i < timed, &views[i]);
+        if (measured != NOOK_OK)
+            return measured;
+    }
+    result->actual = nook_tune_pool(views, count);
     return NOOK_OK;
 }
 
@@ -100,12 +125,11 @@ static void judge(const nook_tune_goal *goal, nook_tune_result *result)
     result->holds = result->near && result->error_holds && result->ms_holds;
 }
 
-/* Its times are taken afresh: those it was chosen by are among the lucky ones. Then as many views that nothing was chosen by. */
 static nook_result prove(tuning *t, const nook_tune_goal *goal, nook_tune_result *result)
 {
-    nook_result measured = measure_winner(t, NOOK_TUNE_CHOOSE, result, &result->predicted);
+    nook_result measured = time_winner(t, goal, result);
     if (measured == NOOK_OK)
-        measured = measure_winner(t, NOOK_TUNE_PROVE, result, &result->actual);
+        measured = measure_held_back(t, goal, result);
     if (measured == NOOK_OK)
         judge(goal, result);
     return measured;
@@ -120,13 +144,16 @@ static nook_result search_and_prove(tuning *t, nook_stage *stage, const nook_tun
                                          .noise = noise,
                                          .rays_max = (uint32_t)options->reference_rays,
                                          .views_max = search.views_max };
+    nook_progress *outer = stage->progress;
     t->progress = nook_tune_progress_begin(&options->goal, search.tries_max);
+    stage->progress = t->progress.terminal ? outer : &t->progress.whole;
     nook_result done = nook_tune_views_open(stage, &views, &t->views);
     if (done == NOOK_OK)
         done = nook_tune_search(&search, &result->outcome);
     result->predicted = result->outcome.estimate;
     if (done == NOOK_OK && result->outcome.fits)
         done = prove(t, &options->goal, result);
+    stage->progress = outer;
     nook_tune_progress_end(&t->progress);
     nook_tune_views_close(&t->views);
     return done;

@@ -13,12 +13,13 @@
 
 typedef struct nook_tune_result {
     nook_tune_outcome outcome;
-    nook_tune_estimate predicted; /**< outcome.estimate, timed afresh in all its views when something fits. */
-    nook_tune_estimate actual;    /**< On the held-back cameras; zero when nothing fits. */
-    double difference;            /**< actual / predicted error - 1. */
-    double difference_standard;   /**< Its standard error, as far as it comes from the choice of cameras. */
-    bool near;                    /**< |difference| <= NOOK_TUNE_TOLERANCE. */
-    bool error_holds;             /**< The actual error is not over the budget by more than its standard error. */
+    nook_tune_estimate
+        predicted; /**< outcome.estimate, timed afresh when something fits: in all its views where time is limited, else in 8. */
+    nook_tune_estimate actual;  /**< On the held-back cameras; zero when nothing fits. */
+    double difference;          /**< actual / predicted error - 1. */
+    double difference_standard; /**< Its standard error, as far as it comes from the choice of cameras. */
+    bool near;                  /**< |difference| <= NOOK_TUNE_TOLERANCE. */
+    bool error_holds;           /**< The actual error is not over the budget by more than its standard error. */
     bool ms_holds;   /**< Neither time is over the budget by more than the spread of its own frames (ms_spread). */
     bool holds;      /**< Something fits, and all three. */
     double settings; /**< How many there are. */
