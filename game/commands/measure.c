@@ -101,7 +101,7 @@ static nook_result write_all(const nook_app *app, const nook_measure_options *op
 static bool print_summary(const nook_measure_options *options, const nook_measure_run *run)
 {
     nook_measure_verdict verdict = nook_measure_judge(run->results);
-    bool holds = verdict.over == 0 && verdict.non_finite == 0 && verdict.worst;
+    bool holds = verdict.over == 0 && verdict.non_finite == 0 && verdict.outside == 0 && verdict.worst;
     if (verdict.over > 0)
         nook_log_warning("%zu rows have a truth whose noise is over a quarter of an error; raise rays_max",
                          verdict.over);
@@ -113,7 +113,8 @@ static bool print_summary(const nook_measure_options *options, const nook_measur
                verdict.worst->r_max, verdict.worst->setting, verdict.over > 0 ? "over" : "everywhere under");
     if (run->failures > 0)
         printf("%zu scenes failed; ", run->failures);
-    printf("%llu pixels not finite\n", (unsigned long long)verdict.non_finite);
+    printf("%llu pixels not finite, %llu clamped\n", (unsigned long long)verdict.non_finite,
+           (unsigned long long)verdict.outside);
     return holds;
 }
 

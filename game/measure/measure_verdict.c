@@ -67,6 +67,7 @@ nook_measure_verdict nook_measure_judge(const nook_results *results)
         double screen = sample->screen.count > 0 ? nook_measure_noise_part(sample, true, &of_screen) : 0.0;
         double part = fmax(truth, screen);
         verdict.non_finite += sample->truth.non_finite + sample->instability.non_finite;
+        verdict.outside += sample->outside;
         verdict.over += part > NOOK_MEASURE_NOISE_PART;
         if (verdict.worst && part <= verdict.largest_part)
             continue;

@@ -21,6 +21,7 @@ typedef struct nook_measure_verdict {
     const char *worst_error;      /**< "RMSE", "MAE against the screen's truth", ...; "" without rows. */
     size_t over;                  /**< Rows with more than NOOK_MEASURE_NOISE_PART. */
     uint64_t non_finite;          /**< Pixels. */
+    uint64_t outside;             /**< Visibilities that were clamped into [0, 1]: nook_sample.outside. */
 } nook_measure_verdict;
 
 /** Noise and error both zero are fine: there is nothing to see there. */

@@ -49,6 +49,7 @@ static const nook_result_column row_columns[] = {
     ROW("flicker", NUMBER, sample.flicker),
     ROW("pixels", COUNT, sample.truth.count),
     ROW("non_finite", COUNT, sample.truth.non_finite),
+    ROW("outside", COUNT, sample.outside),
     ROW("screen_pixels", COUNT, sample.screen.count),
     ROW("screen_non_finite", COUNT, sample.screen.non_finite),
     ROW("instability_pixels", COUNT, sample.instability.pixels),

@@ -43,7 +43,8 @@ typedef struct nook_sample {
     double fetches;                   /**< Texture fetches per full-size pixel with geometry. */
     double volume_bytes;              /**< Of the volumes on the GPU; 0 for techniques that read none. */
     double texture_bytes;             /**< Of the AO's own textures at this size and scale. */
-    double bake_ms;      /**< Baking all volumes; 0 for techniques that read none, NaN: some came from a cache. */
+    double bake_ms;   /**< Baking all volumes; 0 for techniques that read none, NaN: some came from a cache. */
+    uint64_t outside; /**< Visibilities that were NaN, negative or above 1 before they were clamped: 0, or a mistake. */
     nook_errors truth;   /**< Against rays through the scene. */
     nook_errors screen;  /**< Against rays through the surfaces that the depth buffer shows; NaN for such rays. */
     double ssim;         /**< Mean structural similarity with the truth, 1 = equal. */

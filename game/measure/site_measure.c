@@ -61,6 +61,7 @@ static nook_result count(nook_site *site, const nook_ao_technique *technique, no
     nook_ao_get_statistics(ao, &statistics);
     bool volumes = technique->inputs & NOOK_AO_IN_VOLUMES;
     sample->fetches = statistics.fetches_per_pixel;
+    sample->outside = statistics.outside;
     sample->volume_bytes = volumes ? (double)statistics.volume_bytes : 0.0;
     sample->texture_bytes = (double)statistics.texture_bytes;
     sample->bake_ms = volumes ? sum_bake_ms(site->stage->world) : 0.0;

@@ -444,12 +444,13 @@ static void test_results_are_believed_only_when_the_truth_is_quieter_than_a_quar
     assert_string_equal(verdict.worst->camera, "d");
     row = make_row("e", "ssao", "b", NAN);
     row.sample.truth.non_finite = 3;
+    row.sample.outside = 7;
     row.sample.screen = (nook_errors){ .count = 9, .valid = true, .rmse = 0.5, .mae = 0.5 };
     row.sample.screen_noise = 0.4;
     assert_int_equal(nook_results_put(&results, &row), NOOK_OK);
     verdict = nook_measure_judge(&results);
     assert_int_equal(verdict.over, 2);
-    assert_true(isinf(verdict.largest_part) && verdict.non_finite == 3);
+    assert_true(isinf(verdict.largest_part) && verdict.non_finite == 3 && verdict.outside == 7);
     row.sample.truth = (nook_errors){ .count = 9, .valid = true, .rmse = 0.1, .mae = 0.1 };
     row.sample.rmse_inside = row.sample.rmse_away = 0.1;
     assert_int_equal(nook_results_put(&results, &row), NOOK_OK);

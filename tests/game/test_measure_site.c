@@ -248,6 +248,7 @@ static void test_a_setting_measures_the_same_twice_and_after_others(void **state
     assert_true(first.noise == again.noise && first.flicker == again.flicker);
     assert_true(first.instability.rms == again.instability.rms && first.ssim == again.ssim);
     assert_true(first.fetches == again.fetches && first.fetches > 0.0);
+    assert_true(first.outside == 0 && again.outside == 0);
     assert_true(first.truth.rmse > 0.0 && first.screen.rmse > 0.0 && first.screen.rmse != first.truth.rmse);
     nook_site_close(site);
 }

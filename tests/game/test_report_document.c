@@ -102,7 +102,8 @@ static void test_tables_hold_the_numbers(void **state)
     assert_ptr_equal(strstr(line, "| `volume` | 12.3 | 101 | 0.0124 | -0.5000 |"), line);
     assert_non_null(strstr(line, " | - | 0.975 | ")); /* no SSIM, and its ceiling */
     assert_non_null(strstr(line, "| 1.50 |"));
-    assert_non_null(strstr(find_line(&file, "\n| 12.3 | 11.5 | 13.2 | 101 | 0.0124 "), "`volume` as it comes |")); /* the front */
+    assert_non_null(
+        strstr(find_line(&file, "\n| 12.3 | 11.5 | 13.2 | 101 | 0.0124 "), "`volume` as it comes |")); /* the front */
     assert_non_null(find_line(&file, "| `reference sees=screen` | 54321 |"));
     nook_file_free(&file);
     nook_results_free(&results);
