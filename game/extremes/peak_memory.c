@@ -52,6 +52,8 @@ uint64_t nook_peak_memory_ours(uint64_t growth)
 /** The child's whole life: the result, and after it the answer. */
 static void answer(int pipe_end, nook_child_work work, const void *user, size_t out_size)
 {
+    mallopt(M_MMAP_THRESHOLD, 128 << 10); /* as at a program's start: what the parent freed has raised it, and then */
+    mallopt(M_TRIM_THRESHOLD, 128 << 10); /* large blocks that are freed stay resident */
     void *out = calloc(1, out_size);
     nook_result result = out ? work(user, out) : NOOK_E_MEMORY;
     bool told = write(pipe_end, &result, sizeof result) == (ssize_t)sizeof result &&
