@@ -217,7 +217,7 @@ static void test_few_slices_block_no_more_than_all_of_the_sky(void **state)
             nook_fixture_view_set_pixel(view, x, y, (x + y) % 3 ? 1.0 : 2.0, grazing);
     }
     for (int count = 1; count <= 5; count++) {
-        char text[8];
+        char text[16];
         snprintf(text, sizeof text, "%d", count);
         ao_view_param(view, "gtao.slices", text);
         ao_view_param(view, "hbao.directions", text);
