@@ -91,7 +91,7 @@ nook_result nook_compare_check_param(const char *name, size_t length, const char
     const char *dot = memchr(name, '.', length);
     size_t owner_length = dot ? (size_t)(dot - name) : length;
     char owner_name[64], rest[64] = "";
-    param_owner owner;
+    param_owner owner = { .count = 0 };
     snprintf(owner_name, sizeof owner_name, "%.*s", (int)owner_length, name);
     nook_result result = find_owner(owner_name, &owner);
     if (result != NOOK_OK)

@@ -53,7 +53,6 @@ static nook_result draw(const nook_extremes *extremes, nook_edge_scene *scene, b
                         nook_extreme_found *found, const char *where, drawn *out)
 {
     nook_edge_render render;
-    *out = (drawn){ 0 };
     nook_result result = nook_edge_render_make(extremes, scene, &render);
     if (result != NOOK_OK)
         return result;
@@ -68,7 +67,7 @@ static nook_result draw(const nook_extremes *extremes, nook_edge_scene *scene, b
     return result;
 }
 
-/** Draws the usual scene `distance` units off, its camera with it, by nodes or by vertices. */
+/** Draws the usual scene `distance` units off, its camera with it, by nodes or by vertices. *out is zero on failure. */
 static nook_result draw_off(const nook_extremes *extremes, double distance, bool by_vertices, bool with_pictures,
                             nook_extreme_found *found, drawn *out)
 {
@@ -76,6 +75,7 @@ static nook_result draw_off(const nook_extremes *extremes, double distance, bool
     nook_edge_scene_desc desc = { 0 };
     double offset[3];
     char where[64];
+    *out = (drawn){ 0 };
     offset_of(distance, offset);
     if (distance > 0.0 && by_vertices)
         memcpy(desc.vertex_offset, offset, sizeof offset);

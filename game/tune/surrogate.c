@@ -116,7 +116,7 @@ bool nook_tune_surrogate_fit(const nook_tune_trials *trials, uint32_t technique,
 
 nook_tune_cost nook_tune_surrogate_predict(const nook_tune_surrogate *surrogate, const nook_tune_point *point)
 {
-    double terms[NOOK_TUNE_TERMS_MAX], error = 0.0, ms = 0.0;
+    double terms[NOOK_TUNE_TERMS_MAX] = { 0.0 }, error = 0.0, ms = 0.0;
     terms_of(surrogate->ladders, &surrogate->centre, point, terms);
     for (uint32_t i = 0; i < surrogate->terms; i++) {
         error += surrogate->error[i] * terms[i];

@@ -27,6 +27,7 @@ static nook_result measure(nook_tune_trials *trials, nook_tune_trial *trial, uin
 nook_result nook_tune_trials_try(nook_tune_trials *trials, const char *doing, const nook_tune_point *point)
 {
     const nook_tune_search_desc *desc = trials->desc;
+    assert(trials->items);
     if (nook_tune_trials_find(trials, point))
         return NOOK_OK;
     assert(nook_tune_trials_open(trials));

@@ -16,7 +16,7 @@ static pose pose_of(const nook_camera *camera)
 {
     const double origin[3] = { 0.0, 0.0, 0.0 }, ahead[3] = { 0.0, 0.0, -1.0 };
     nook_matrix world_from_view;
-    pose p;
+    pose p = { .eye = { 0.0 } };
     nook_matrix_inverse_affine(&camera->view_from_world, &world_from_view);
     nook_matrix_apply_point(&world_from_view, origin, p.eye);
     nook_matrix_apply_vector(&world_from_view, ahead, p.forward);
