@@ -1,12 +1,9 @@
-#include "engine/core/file.h"
 #include "engine/core/log.h"
 #include "game/commands/commands.h"
+#include "game/option_rows.h"
 #include "game/settings/settings_file.h"
-#include "game/techniques.h"
 #include "game/volumes.h"
 #include <stdio.h>
-
-enum { PATH_CAPACITY = 4096 };
 
 /* The texts of --help that hold numbers. */
 typedef struct bake_help {
@@ -81,42 +78,23 @@ typedef struct bake_request {
     const char *scene, *cache, *settings;
     int32_t resolution, threads;
     double r_max;
-    char default_cache[PATH_CAPACITY];
+    char default_cache[NOOK_OPTION_PATH_MAX];
 } bake_request;
 
 static bool read_request(const nook_app *app, int argc, char **argv, bake_request *out, int *out_exit_code)
 {
     *out = (bake_request){ .scene = NULL };
-    out->cache = nook_path_join(out->default_cache, sizeof out->default_cache, app->root, "cache");
-    const nook_param *shared_r_max = nook_shared_param("r_max");
+    out->cache = nook_option_default_cache(app, out->default_cache);
     bake_help help = { .details = "" };
     describe(&help);
     const nook_option options[] = {
-        { .name = "settings",
-          .kind = NOOK_OPTION_TEXT,
-          .target = &out->settings,
-          .placeholder = "FILE",
-          .help = "resolution and r_max of a settings file; options given here count more. compare and measure take\n"
-                  "                             the rest of it; verify, extremes and tune take none" },
-        { .name = "resolution",
-          .kind = NOOK_OPTION_INT,
-          .target = &out->resolution,
-          .placeholder = "N",
-          .help = help.resolution,
-          .lowest = 1,
-          .highest = NOOK_VOXELIZE_RESOLUTION_MAX },
-        { .name = "r-max",
-          .kind = NOOK_OPTION_NUMBER,
-          .target = &out->r_max,
-          .placeholder = "M",
-          .help = help.r_max,
-          .lowest = shared_r_max->lowest,
-          .highest = shared_r_max->highest },
-        { .name = "cache",
-          .kind = NOOK_OPTION_TEXT,
-          .target = &out->cache,
-          .placeholder = "DIR",
-          .help = "where volumes are kept; default cache/ beside the sources" },
+        nook_option_row_settings(
+            &out->settings,
+            "resolution and r_max of a settings file; options given here count more. compare and measure take\n"
+            "                             the rest of it; verify, extremes and tune take none"),
+        nook_option_row_resolution(&out->resolution, help.resolution),
+        nook_option_row_r_max(&out->r_max, help.r_max),
+        nook_option_row_cache(&out->cache, "where volumes are kept; default cache/ beside the sources"),
         { .name = "threads",
           .kind = NOOK_OPTION_INT,
           .target = &out->threads,

@@ -3,11 +3,12 @@
 #include "game/commands/commands.h"
 #include "game/extremes/extreme_report.h"
 #include "game/extremes/scratch_folder.h"
+#include "game/option_rows.h"
 #include "game/progress.h"
 
 typedef struct extremes_options {
     const char *only, *out;
-    int32_t backend;
+    nook_backend backend;
     bool list, json, quick;
 } extremes_options;
 
@@ -19,11 +20,6 @@ typedef struct extremes_run {
     size_t index, count;
     bool table;
 } extremes_run;
-
-static bool read_backend(void *target, const char *text)
-{
-    return nook_backend_parse(text, target);
-}
 
 static void begin_case(void *user, const nook_extreme_group *group, const nook_extreme *extreme)
 {
@@ -95,7 +91,7 @@ static int run_with_device(const nook_app *app, const extremes_options *options)
     bool hold = false;
     nook_context *context;
     nook_gpu *gpu = NULL;
-    const nook_context_desc desc = { .backend = (nook_backend)options->backend };
+    const nook_context_desc desc = { .backend = options->backend };
     if (nook_context_create(&desc, &context) != NOOK_OK)
         return NOOK_EXIT_FAILED;
     const nook_gpu_desc gpu_desc = { nook_context_get_proc(context), app->root, .log_debug_output = true };
@@ -124,22 +120,9 @@ int nook_command_extremes(const nook_app *app, int argc, char **argv)
           .kind = NOOK_OPTION_FLAG,
           .target = &settings.quick,
           .help = "fewer samples of the same cases, as the tests take" },
-        { .name = "out",
-          .kind = NOOK_OPTION_TEXT,
-          .target = &settings.out,
-          .placeholder = "FILE",
-          .help = "also write everything as JSON" },
-        { .name = "json",
-          .kind = NOOK_OPTION_FLAG,
-          .target = &settings.json,
-          .help = "print that JSON instead of the table" },
-        { .name = "backend",
-          .kind = NOOK_OPTION_CUSTOM,
-          .target = &settings.backend,
-          .placeholder = "NAME",
-          .read = read_backend,
-          .expects = "window, osmesa, egl or auto",
-          .help = "window, osmesa or egl; default: what this machine has" },
+        nook_option_row_json_file(&settings.out),
+        nook_option_row_json(&settings.json, "print that JSON instead of the table"),
+        nook_option_row_backend(&settings.backend),
     };
     const nook_usage usage = {
         .command = "extremes",

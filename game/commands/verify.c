@@ -2,20 +2,17 @@
 #include "engine/core/file.h"
 #include "engine/platform/context.h"
 #include "game/commands/commands.h"
+#include "game/option_rows.h"
 #include "game/verify/verify_report.h"
 #include "game/verify/verify_run.h"
 #include <string.h>
 
 typedef struct verify_options {
     const char *techniques, *fixtures, *out;
-    int32_t backend, rays;
+    nook_backend backend;
+    int32_t rays;
     bool json, quick;
 } verify_options;
-
-static bool read_backend(void *target, const char *text)
-{
-    return nook_backend_parse(text, target);
-}
 
 /** Each row as soon as it is known. */
 typedef struct table {
@@ -73,7 +70,7 @@ static int run_with_device(const nook_app *app, const verify_options *options, n
 {
     bool hold = false;
     nook_context *context;
-    const nook_context_desc context_desc = { .backend = (nook_backend)options->backend };
+    const nook_context_desc context_desc = { .backend = options->backend };
     if (nook_context_create(&context_desc, &context) != NOOK_OK)
         return NOOK_EXIT_FAILED;
     const nook_gpu_desc gpu_desc = { nook_context_get_proc(context), app->root, .log_debug_output = true };
@@ -89,11 +86,7 @@ static int run_with_device(const nook_app *app, const verify_options *options, n
 static bool read_options(int argc, char **argv, verify_options *out_settings, int *out_exit_code)
 {
     const nook_option options[] = {
-        { .name = "techniques",
-          .kind = NOOK_OPTION_TEXT,
-          .target = &out_settings->techniques,
-          .placeholder = "a,b,c",
-          .help = "which ones, and filter; default: all" },
+        nook_option_row_techniques(&out_settings->techniques, "which ones, and filter; default: all"),
         { .name = "fixtures",
           .kind = NOOK_OPTION_TEXT,
           .target = &out_settings->fixtures,
@@ -110,22 +103,9 @@ static bool read_options(int argc, char **argv, verify_options *out_settings, in
           .kind = NOOK_OPTION_FLAG,
           .target = &out_settings->quick,
           .help = "every fixture at fewer points of its parameters" },
-        { .name = "out",
-          .kind = NOOK_OPTION_TEXT,
-          .target = &out_settings->out,
-          .placeholder = "FILE",
-          .help = "also write everything as JSON" },
-        { .name = "json",
-          .kind = NOOK_OPTION_FLAG,
-          .target = &out_settings->json,
-          .help = "print that JSON instead of the table" },
-        { .name = "backend",
-          .kind = NOOK_OPTION_CUSTOM,
-          .target = &out_settings->backend,
-          .placeholder = "NAME",
-          .read = read_backend,
-          .expects = "window, osmesa, egl or auto",
-          .help = "window, osmesa or egl; default: what this machine has" },
+        nook_option_row_json_file(&out_settings->out),
+        nook_option_row_json(&out_settings->json, "print that JSON instead of the table"),
+        nook_option_row_backend(&out_settings->backend),
     };
     const nook_usage usage = {
         .command = "verify",

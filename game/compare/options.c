@@ -1,8 +1,5 @@
 #include "game/compare/options.h"
-#include "engine/core/file.h"
 #include "engine/core/result.h"
-#include "game/techniques.h"
-#include "modules/bake/voxelize.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -23,11 +20,6 @@ static bool read_scale(void *target, const char *text)
     return false;
 }
 
-static bool read_backend(void *target, const char *text)
-{
-    return nook_backend_parse(text, target);
-}
-
 static bool read_views(void *target, const char *text)
 {
     return nook_view_list_read(text, target);
@@ -37,9 +29,8 @@ bool nook_compare_options_read(const nook_app *app, int argc, char **argv, nook_
                                int *out_exit_code)
 {
     *out = (nook_compare_options){ .size = { 960, 540 }, .out = "out", .backend = NOOK_BACKEND_AUTO };
-    out->scene = nook_path_join(out->default_scene, sizeof out->default_scene, app->root, "content/hall/hall.glb");
-    out->cache = nook_path_join(out->default_cache, sizeof out->default_cache, app->root, "cache");
-    const nook_param *r_max = nook_shared_param("r_max");
+    out->scene = nook_option_default_scene(app, out->default_scene);
+    out->cache = nook_option_default_cache(app, out->default_cache);
     char view_help[512], view_names[512], view_expects[600];
     snprintf(view_help, sizeof view_help,
              "also writes view_<name>.png of the frame, names with commas between:\n%29s%s", "",
@@ -47,42 +38,20 @@ bool nook_compare_options_read(const nook_app *app, int argc, char **argv, nook_
     snprintf(view_expects, sizeof view_expects, "names with commas between, of %s",
              nook_view_list_names(0, view_names, sizeof view_names));
     const nook_option options[] = {
-        { .name = "settings",
-          .kind = NOOK_OPTION_TEXT,
-          .target = &out->settings,
-          .placeholder = "FILE",
-          .help = "a setting, as ./nook tune writes it, beside the reference; options given here count more;\n"
-                  "                             measure and bake take it too; verify, extremes and tune take none" },
+        nook_option_row_settings(
+            &out->settings,
+            "a setting, as ./nook tune writes it, beside the reference; options given here count more;\n"
+            "                             measure and bake take it too; verify, extremes and tune take none"),
         { .name = "camera",
           .kind = NOOK_OPTION_TEXT,
           .target = &out->camera,
           .placeholder = "NAME|p,t,fov",
           .help = "a camera of the scene (./nook info SCENE names them), or px,py,pz,tx,ty,tz,fov: eye, target,\n"
                   "                             degrees; default: the scene's first" },
-        { .name = "size",
-          .kind = NOOK_OPTION_SIZE,
-          .target = &out->size,
-          .placeholder = "WxH",
-          .lowest = 1,
-          .highest = 16384,
-          .help = "of the pictures in pixels; default 960x540" },
-        { .name = "r-max",
-          .kind = NOOK_OPTION_NUMBER,
-          .target = &out->r_max,
-          .placeholder = "M",
-          .lowest = r_max->lowest,
-          .highest = r_max->highest,
-          .help = "reach of the occlusion in metres; default: a tenth of the scene's diagonal" },
-        { .name = "falloff",
-          .kind = NOOK_OPTION_TEXT,
-          .target = &out->falloff,
-          .placeholder = "NAME",
-          .help = "hard, linear, quadratic, wendland or exponential" },
-        { .name = "techniques",
-          .kind = NOOK_OPTION_TEXT,
-          .target = &out->techniques,
-          .placeholder = "a,b,c",
-          .help = "which ones; default: all, or that of --settings" },
+        nook_option_row_size(&out->size, "of the pictures in pixels; default 960x540"),
+        nook_option_row_r_max(&out->r_max, nook_option_r_max_help),
+        nook_option_row_falloff(&out->falloff),
+        nook_option_row_techniques(&out->techniques, "which ones; default: all, or that of --settings"),
         { .name = "ao-scale",
           .kind = NOOK_OPTION_CUSTOM,
           .target = &out->ao_scale,
@@ -99,13 +68,7 @@ bool nook_compare_options_read(const nook_app *app, int argc, char **argv, nook_
           .kind = NOOK_OPTION_FLAG,
           .target = &out->list_params,
           .help = "print every parameter that --param takes: initial value, range, unit; and do nothing else" },
-        { .name = "reference-rays",
-          .kind = NOOK_OPTION_INT,
-          .target = &out->reference_rays,
-          .placeholder = "N",
-          .lowest = 1,
-          .highest = 65536,
-          .help = "rays per pixel of the ray-traced reference" },
+        nook_option_row_reference_rays(&out->reference_rays, 1, "rays per pixel of the ray-traced reference"),
         { .name = "frames",
           .kind = NOOK_OPTION_INT,
           .target = &out->frames,
@@ -129,33 +92,14 @@ bool nook_compare_options_read(const nook_app *app, int argc, char **argv, nook_
           .target = &out->out,
           .placeholder = "DIR",
           .help = "where the pictures and compare.json go; default out" },
-        { .name = "backend",
-          .kind = NOOK_OPTION_CUSTOM,
-          .target = &out->backend,
-          .placeholder = "NAME",
-          .read = read_backend,
-          .expects = "window, osmesa, egl or auto",
-          .help = "window, osmesa or egl; default: what this machine has" },
-        { .name = "resolution",
-          .kind = NOOK_OPTION_INT,
-          .target = &out->resolution,
-          .placeholder = "N",
-          .lowest = 1,
-          .highest = NOOK_VOXELIZE_RESOLUTION_MAX,
-          .help = "voxels along the longest side of a body" },
-        { .name = "cache",
-          .kind = NOOK_OPTION_TEXT,
-          .target = &out->cache,
-          .placeholder = "DIR",
-          .help = "where baked volumes are kept; default: cache/ of Nook" },
+        nook_option_row_backend(&out->backend),
+        nook_option_row_resolution(&out->resolution, "voxels along the longest side of a body"),
+        nook_option_row_cache(&out->cache, "where baked volumes are kept; default: cache/ of Nook"),
         { .name = "no-window",
           .kind = NOOK_OPTION_FLAG,
           .target = &out->no_window,
           .help = "write the files only, also where there is a display" },
-        { .name = "json",
-          .kind = NOOK_OPTION_FLAG,
-          .target = &out->json,
-          .help = "print compare.json instead of the table" },
+        nook_option_row_json(&out->json, "print compare.json instead of the table"),
     };
     const nook_usage usage = {
         .command = "compare",

@@ -1,10 +1,7 @@
 #pragma once
-#include "engine/platform/context.h"
-#include "game/command.h"
 #include "game/compare/views.h"
+#include "game/option_rows.h"
 #include "game/settings/settings_file.h"
-
-enum { NOOK_COMPARE_PATH_MAX = 4096 };
 
 /** The command line of `compare`, read but not yet held against the scene. Texts point into argv or into this struct. */
 typedef struct nook_compare_options {
@@ -29,7 +26,7 @@ typedef struct nook_compare_options {
     bool list_params;        /**< Do nothing but print them (game/compare/param_list.h). */
     bool json;               /**< compare.json on standard output instead of the table. */
     nook_settings_file file; /**< What `settings` holds: nook_compare_options_settle. */
-    char default_scene[NOOK_COMPARE_PATH_MAX], default_cache[NOOK_COMPARE_PATH_MAX];
+    char default_scene[NOOK_OPTION_PATH_MAX], default_cache[NOOK_OPTION_PATH_MAX];
 } nook_compare_options;
 
 /** nook_arguments_read for this command. @return false: return *out_exit_code from the command */

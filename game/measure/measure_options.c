@@ -3,17 +3,12 @@
 #include "engine/core/result.h"
 #include <stdio.h>
 
-static bool read_backend(void *target, const char *text)
-{
-    return nook_backend_parse(text, target);
-}
-
 /* Paths that follow from where the program's data is. */
 static void fill_defaults(const nook_app *app, nook_measure_options *out)
 {
     *out = (nook_measure_options){ .out = "measured", .backend = NOOK_BACKEND_AUTO };
-    out->cache = nook_path_join(out->default_cache, sizeof out->default_cache, app->root, "cache");
-    nook_path_join(out->default_scene, sizeof out->default_scene, app->root, "content/hall/hall.glb");
+    out->cache = nook_option_default_cache(app, out->default_cache);
+    nook_option_default_scene(app, out->default_scene);
 }
 
 static void choose_suite(const nook_app *app, nook_measure_options *out)
@@ -48,13 +43,10 @@ bool nook_measure_options_read(const nook_app *app, int argc, char **argv, nook_
           .target = &out->sweep,
           .placeholder = "FILE",
           .help = "settings and views of one's own; content/suites/ has examples" },
-        { .name = "settings",
-          .kind = NOOK_OPTION_TEXT,
-          .target = &out->settings,
-          .placeholder = "FILE",
-          .help =
-              "measure this setting, as ./nook tune writes it, beside those of the sweep; compare and bake take it\n"
-              "                             too; verify, extremes and tune take none" },
+        nook_option_row_settings(
+            &out->settings,
+            "measure this setting, as ./nook tune writes it, beside those of the sweep; compare and bake take it\n"
+            "                             too; verify, extremes and tune take none"),
         { .name = "scenes",
           .kind = NOOK_OPTION_TEXT,
           .target = &out->scene_folder,
@@ -83,18 +75,8 @@ bool nook_measure_options_read(const nook_app *app, int argc, char **argv, nook_
           .target = &out->document,
           .placeholder = "FILE",
           .help = "put the tables into it, between its lines \"measured: begin\" and \"measured: end\"" },
-        { .name = "cache",
-          .kind = NOOK_OPTION_TEXT,
-          .target = &out->cache,
-          .placeholder = "DIR",
-          .help = "where the truths are kept; default: cache/ of Nook" },
-        { .name = "backend",
-          .kind = NOOK_OPTION_CUSTOM,
-          .target = &out->backend,
-          .placeholder = "NAME",
-          .read = read_backend,
-          .expects = "window, osmesa, egl or auto",
-          .help = "window, osmesa or egl; default: what this machine has" },
+        nook_option_row_cache(&out->cache, "where the truths are kept; default: cache/ of Nook"),
+        nook_option_row_backend(&out->backend),
     };
     const nook_usage usage = {
         .command = "measure",

@@ -1,9 +1,6 @@
 #pragma once
-#include "engine/platform/context.h"
-#include "game/command.h"
+#include "game/option_rows.h"
 #include "game/settings/settings_file.h"
-
-enum { NOOK_MEASURE_PATH_MAX = 4096 };
 
 /** The command line of `measure`. Texts point into argv or into this struct. */
 typedef struct nook_measure_options {
@@ -22,8 +19,8 @@ typedef struct nook_measure_options {
     const char *cache;
     nook_backend backend;
     nook_settings_file file; /**< What `settings` holds: for the command to read. */
-    char default_cache[NOOK_MEASURE_PATH_MAX], suite_path[NOOK_MEASURE_PATH_MAX];
-    char default_scene[NOOK_MEASURE_PATH_MAX];
+    char default_cache[NOOK_OPTION_PATH_MAX], suite_path[NOOK_OPTION_PATH_MAX];
+    char default_scene[NOOK_OPTION_PATH_MAX];
 } nook_measure_options;
 
 /** nook_arguments_read for this command. @return false: return *out_exit_code from the command */

@@ -2,18 +2,12 @@
 #include "engine/core/file.h"
 #include "engine/core/log.h"
 #include "game/compare/choice.h"
-#include "game/techniques.h"
 #include "game/tune/search.h"
 #include <assert.h>
 #include <stdio.h>
 #include <string.h>
 
 enum { RAYS_DEFAULT = 128, OPTIONS_MAX = 16 };
-
-static bool read_backend(void *target, const char *text)
-{
-    return nook_backend_parse(text, target);
-}
 
 /* The techniques to choose among: those of the list, else all; never an exact one, which is what they are measured against. */
 static nook_result make_space(const char *list, nook_tune_space *out)
@@ -40,10 +34,10 @@ static nook_result check(nook_tune_options *options)
 }
 
 /* tuned_<scene>.txt, here. */
-static const char *default_out(const char *scene, char out[NOOK_TUNE_PATH_MAX])
+static const char *default_out(const char *scene, char out[NOOK_OPTION_PATH_MAX])
 {
     const char *name = nook_path_name(scene), *extension = nook_path_extension(name);
-    snprintf(out, NOOK_TUNE_PATH_MAX, "tuned_%.*s.txt", (int)(extension - name), name);
+    snprintf(out, NOOK_OPTION_PATH_MAX, "tuned_%.*s.txt", (int)(extension - name), name);
     return out;
 }
 
@@ -84,27 +78,10 @@ static void add_budget(option_list *list, nook_tune_options *out)
 /* What is looked at: size and what occlusion means. */
 static void add_picture(option_list *list, nook_tune_options *out)
 {
-    const nook_param *r_max = nook_shared_param("r_max");
     const nook_option options[] = {
-        { .name = "size",
-          .kind = NOOK_OPTION_SIZE,
-          .target = &out->size,
-          .placeholder = "WxH",
-          .lowest = 1,
-          .highest = 16384,
-          .help = "of the pictures in pixels; default 384x216" },
-        { .name = "r-max",
-          .kind = NOOK_OPTION_NUMBER,
-          .target = &out->r_max,
-          .placeholder = "M",
-          .lowest = r_max->lowest,
-          .highest = r_max->highest,
-          .help = "reach of the occlusion in metres; default: a tenth of the scene's diagonal" },
-        { .name = "falloff",
-          .kind = NOOK_OPTION_TEXT,
-          .target = &out->falloff,
-          .placeholder = "NAME",
-          .help = "hard, linear, quadratic, wendland or exponential" },
+        nook_option_row_size(&out->size, "of the pictures in pixels; default 384x216"),
+        nook_option_row_r_max(&out->r_max, nook_option_r_max_help),
+        nook_option_row_falloff(&out->falloff),
     };
     append(list, options, NOOK_COUNT(options));
 }
@@ -112,11 +89,7 @@ static void add_picture(option_list *list, nook_tune_options *out)
 static void add_search(option_list *list, nook_tune_options *out)
 {
     const nook_option options[] = {
-        { .name = "techniques",
-          .kind = NOOK_OPTION_TEXT,
-          .target = &out->techniques,
-          .placeholder = "a,b,c",
-          .help = "to choose among; default: all" },
+        nook_option_row_techniques(&out->techniques, "to choose among; default: all"),
         { .name = "cameras",
           .kind = NOOK_OPTION_INT,
           .target = &out->cameras,
@@ -131,13 +104,7 @@ static void add_search(option_list *list, nook_tune_options *out)
           .lowest = 1,
           .highest = NOOK_TUNE_TRIALS_MAX,
           .help = "settings to try at most; default 70" },
-        { .name = "reference-rays",
-          .kind = NOOK_OPTION_INT,
-          .target = &out->reference_rays,
-          .placeholder = "N",
-          .lowest = 2,
-          .highest = 65536,
-          .help = "rays per pixel of the truth at most; default 128" },
+        nook_option_row_reference_rays(&out->reference_rays, 2, "rays per pixel of the truth at most; default 128"),
     };
     append(list, options, NOOK_COUNT(options));
 }
@@ -150,19 +117,9 @@ static void add_files(option_list *list, nook_tune_options *out)
           .target = &out->out,
           .placeholder = "FILE",
           .help = "the settings file; default tuned_<scene>.txt" },
-        { .name = "backend",
-          .kind = NOOK_OPTION_CUSTOM,
-          .target = &out->backend,
-          .placeholder = "NAME",
-          .read = read_backend,
-          .expects = "window, osmesa, egl or auto",
-          .help = "window, osmesa or egl; default: what this machine has" },
-        { .name = "cache",
-          .kind = NOOK_OPTION_TEXT,
-          .target = &out->cache,
-          .placeholder = "DIR",
-          .help = "where baked volumes and truths are kept; default: cache/ of Nook" },
-        { .name = "json", .kind = NOOK_OPTION_FLAG, .target = &out->json, .help = "print the result as JSON" },
+        nook_option_row_backend(&out->backend),
+        nook_option_row_cache(&out->cache, "where baked volumes and truths are kept; default: cache/ of Nook"),
+        nook_option_row_json(&out->json, "print the result as JSON"),
     };
     append(list, options, NOOK_COUNT(options));
 }
@@ -197,8 +154,8 @@ bool nook_tune_options_read(const nook_app *app, int argc, char **argv, nook_tun
                                 .backend = NOOK_BACKEND_AUTO,
                                 .tries = NOOK_TUNE_TRIES_DEFAULT,
                                 .reference_rays = RAYS_DEFAULT };
-    out->scene = nook_path_join(out->default_scene, sizeof out->default_scene, app->root, "content/hall/hall.glb");
-    out->cache = nook_path_join(out->default_cache, sizeof out->default_cache, app->root, "cache");
+    out->scene = nook_option_default_scene(app, out->default_scene);
+    out->cache = nook_option_default_cache(app, out->default_cache);
     const option_list list = list_options(out);
     const nook_usage usage = { .command = "tune",
                                .summary = summary,

@@ -1,10 +1,7 @@
 #pragma once
-#include "engine/platform/context.h"
-#include "game/command.h"
+#include "game/option_rows.h"
 #include "game/tune/goal.h"
 #include "game/tune/space.h"
-
-enum { NOOK_TUNE_PATH_MAX = 4096 };
 
 /** The command line of `tune`. Texts point into argv or into this struct. */
 typedef struct nook_tune_options {
@@ -22,7 +19,7 @@ typedef struct nook_tune_options {
     const char *cache;
     bool json;
     nook_tune_space space; /**< Of the techniques. */
-    char default_scene[NOOK_TUNE_PATH_MAX], default_cache[NOOK_TUNE_PATH_MAX], default_out[NOOK_TUNE_PATH_MAX];
+    char default_scene[NOOK_OPTION_PATH_MAX], default_cache[NOOK_OPTION_PATH_MAX], default_out[NOOK_OPTION_PATH_MAX];
 } nook_tune_options;
 
 /** nook_arguments_read for this command, with all that can be checked without the scene. @return false: return *out_exit_code */

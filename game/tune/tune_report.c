@@ -14,7 +14,7 @@ static const double percent = 100.0;
 
 nook_result nook_tune_report_prepare(const char *path)
 {
-    char probe[NOOK_TUNE_PATH_MAX + 16];
+    char probe[NOOK_OPTION_PATH_MAX + 16];
     if (nook_directory_exists(path))
         return nook_fail(NOOK_E_IO, "%s: a directory; give --out the name of a file", path);
     snprintf(probe, sizeof probe, "%s.probe", path);
