@@ -1,5 +1,5 @@
 /**
- * result_columns.h - every member of a row and of a site by name: one list for the journal, the CSV and the JSON.
+ * result_columns.h - every member of a row and of a site by name, for the journal, the CSV and the JSON.
  */
 #pragma once
 #include "engine/asset/json_tree.h"

@@ -1,6 +1,6 @@
 /**
- * sample_columns.h - the numbers of a sample by name, and how each goes over several cameras: one list for the report, its script
- * and the tables of the document.
+ * sample_columns.h - the numbers of a sample by name, and how each goes over several cameras (sample_members.def): for the report,
+ * its script and the tables of the document.
  */
 #pragma once
 #include "game/measure/site.h"
@@ -19,7 +19,7 @@ typedef struct nook_sample_column {
     size_t offset;          /**< Of the double in nook_sample. */
 } nook_sample_column;
 
-/** @param out_count  of the table @return the table, in the order of nook_sample */
+/** @param out_count  of the table @return the table, in the order of the files' columns */
 const nook_sample_column *nook_sample_columns(size_t *out_count);
 
 double nook_sample_number(const nook_sample *sample, const nook_sample_column *column);
