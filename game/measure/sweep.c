@@ -3,6 +3,7 @@
 #include "engine/core/log.h"
 #include "game/measure/sweep_block.h"
 #include "game/option.h"
+#include "game/settings/line_reader.h"
 #include "game/techniques.h"
 #include "game/volumes.h"
 #include "modules/ao/technique.h"
@@ -10,15 +11,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { WHERE_MAX_BYTES = 4096 + 32, SIDE_MAX = 16384, CAMERAS_MAX = 256 };
-
-static const char blanks[] = " \t\r";
+enum { SIDE_MAX = 16384, CAMERAS_MAX = 256 };
 
 /* A file being read. */
 typedef struct reading {
-    const char *name;
-    unsigned line;
-    char where[WHERE_MAX_BYTES]; /* "file:line" */
+    nook_line_reader lines;
     nook_sweep sweep;
     nook_sweep_block block;
     unsigned block_line; /* 0: before the first block */
@@ -32,7 +29,7 @@ static nook_result read_size(reading *r, char *text)
     int width, height, end = 0;
     if (sscanf(text, "%5dx%5d%n", &width, &height, &end) != 2 || text[end] || width < 1 || height < 1 ||
         width > SIDE_MAX || height > SIDE_MAX)
-        return nook_fail(NOOK_E_FORMAT, "%s: size %s; give WxH, each 1 to %d", r->where, text, SIDE_MAX);
+        return nook_fail(NOOK_E_FORMAT, "%s: size %s; give WxH, each 1 to %d", r->lines.where, text, SIDE_MAX);
     r->sweep.width = (uint32_t)width;
     r->sweep.height = (uint32_t)height;
     return NOOK_OK;
@@ -41,7 +38,7 @@ static nook_result read_size(reading *r, char *text)
 static nook_result read_r_max(reading *r, char *text)
 {
     r->sweep.r_max_count = 0;
-    for (char *word = strtok(text, blanks); word; word = strtok(NULL, blanks)) {
+    for (char *word = strtok(text, NOOK_LINE_BLANKS); word; word = strtok(NULL, NOOK_LINE_BLANKS)) {
         nook_sweep_r_max entry = { 0 };
         size_t length = strlen(word);
         entry.metres = word[length - 1] == 'm';
@@ -50,9 +47,9 @@ static nook_result read_r_max(reading *r, char *text)
         if (!nook_text_to_number(word, &entry.value) || !(entry.value >= 1e-9) || !(entry.value <= 1e9))
             return nook_fail(NOOK_E_FORMAT,
                              "%s: r_max %s; give parts of the scene's diagonal above 0, or metres with an m behind",
-                             r->where, word);
+                             r->lines.where, word);
         if (r->sweep.r_max_count == NOOK_SWEEP_R_MAX_COUNT)
-            return nook_fail(NOOK_E_FORMAT, "%s: more than %d of r_max", r->where, NOOK_SWEEP_R_MAX_COUNT);
+            return nook_fail(NOOK_E_FORMAT, "%s: more than %d of r_max", r->lines.where, NOOK_SWEEP_R_MAX_COUNT);
         r->sweep.r_max[r->sweep.r_max_count++] = entry;
     }
     return NOOK_OK;
@@ -61,14 +58,14 @@ static nook_result read_r_max(reading *r, char *text)
 static nook_result read_falloff(reading *r, char *text)
 {
     r->sweep.falloff_count = 0;
-    for (char *word = strtok(text, blanks); word; word = strtok(NULL, blanks)) {
+    for (char *word = strtok(text, NOOK_LINE_BLANKS); word; word = strtok(NULL, NOOK_LINE_BLANKS)) {
         nook_param param = *nook_shared_param("falloff");
         int32_t choice = 0;
         param.offset = 0;
-        if (nook_param_parse(&param, r->where, &choice, word) != NOOK_OK)
+        if (nook_param_parse(&param, r->lines.where, &choice, word) != NOOK_OK)
             return NOOK_E_FORMAT;
         if (r->sweep.falloff_count == NOOK_SWEEP_FALLOFF_COUNT)
-            return nook_fail(NOOK_E_FORMAT, "%s: more than %d falloffs", r->where, NOOK_SWEEP_FALLOFF_COUNT);
+            return nook_fail(NOOK_E_FORMAT, "%s: more than %d falloffs", r->lines.where, NOOK_SWEEP_FALLOFF_COUNT);
         r->sweep.falloffs[r->sweep.falloff_count++] = (uint32_t)choice;
     }
     return NOOK_OK;
@@ -77,12 +74,12 @@ static nook_result read_falloff(reading *r, char *text)
 static nook_result read_cameras(reading *r, char *text)
 {
     int32_t count = 0;
-    char *kind = strtok(text, blanks), *number = strtok(NULL, blanks);
+    char *kind = strtok(text, NOOK_LINE_BLANKS), *number = strtok(NULL, NOOK_LINE_BLANKS);
     bool sampled = strcmp(kind, "sampled") == 0;
-    if ((!sampled && strcmp(kind, "scene") != 0) || !number || strtok(NULL, blanks) ||
+    if ((!sampled && strcmp(kind, "scene") != 0) || !number || strtok(NULL, NOOK_LINE_BLANKS) ||
         !nook_text_to_int(number, &count) || count < 1 || count > CAMERAS_MAX)
-        return nook_fail(NOOK_E_FORMAT, "%s: cameras; give \"scene N\" or \"sampled N\" with N from 1 to %d", r->where,
-                         CAMERAS_MAX);
+        return nook_fail(NOOK_E_FORMAT, "%s: cameras; give \"scene N\" or \"sampled N\" with N from 1 to %d",
+                         r->lines.where, CAMERAS_MAX);
     r->sweep.camera_count = (uint32_t)count;
     r->sweep.cameras_sampled = sampled;
     return NOOK_OK;
@@ -92,7 +89,7 @@ static nook_result read_noise(reading *r, char *text)
 {
     double noise;
     if (!nook_text_to_number(text, &noise) || !(noise > 0.0) || !(noise <= 1.0))
-        return nook_fail(NOOK_E_FORMAT, "%s: noise %s; give a number above 0, at most 1", r->where, text);
+        return nook_fail(NOOK_E_FORMAT, "%s: noise %s; give a number above 0, at most 1", r->lines.where, text);
     r->sweep.noise = noise;
     return NOOK_OK;
 }
@@ -101,7 +98,8 @@ static nook_result read_rays_max(reading *r, char *text)
 {
     int32_t rays;
     if (!nook_text_to_int(text, &rays) || rays < 2 || rays > 1 << 24)
-        return nook_fail(NOOK_E_FORMAT, "%s: rays_max %s; give a whole number from 2 to %d", r->where, text, 1 << 24);
+        return nook_fail(NOOK_E_FORMAT, "%s: rays_max %s; give a whole number from 2 to %d", r->lines.where, text,
+                         1 << 24);
     r->sweep.rays_max = (uint32_t)rays;
     return NOOK_OK;
 }
@@ -110,7 +108,7 @@ static nook_result read_pictures(reading *r, char *text)
 {
     r->sweep.all_pictures = strcmp(text, "all") == 0;
     if (!r->sweep.all_pictures && strcmp(text, "front") != 0)
-        return nook_fail(NOOK_E_FORMAT, "%s: pictures %s; give all or front", r->where, text);
+        return nook_fail(NOOK_E_FORMAT, "%s: pictures %s; give all or front", r->lines.where, text);
     return NOOK_OK;
 }
 
@@ -126,14 +124,14 @@ static nook_result read_general(reading *r, const char *name, char *value)
         if (strcmp(lines[i].name, name) != 0)
             continue;
         if (r->seen[i])
-            return nook_fail(NOOK_E_FORMAT, "%s: %s stands there twice; leave one of them", r->where, name);
+            return nook_fail(NOOK_E_FORMAT, "%s: %s stands there twice; leave one of them", r->lines.where, name);
         r->seen[i] = true;
         return lines[i].read(r, value);
     }
     return nook_fail(NOOK_E_FORMAT,
                      "%s: %s is nothing of a sweep before its first [technique]; there are size, r_max, falloff, "
                      "cameras, noise, rays_max, pictures",
-                     r->where, name);
+                     r->lines.where, name);
 }
 
 /* ---- Lines ------------------------------------------------------------------------------------------------------ */
@@ -147,74 +145,47 @@ static nook_result begin_block(reading *r, char *text)
 {
     size_t length = strlen(text);
     if (length < 3 || text[length - 1] != ']')
-        return nook_fail(NOOK_E_FORMAT, "%s: give [technique]", r->where);
+        return nook_fail(NOOK_E_FORMAT, "%s: give [technique]", r->lines.where);
     nook_result result = end_block(r);
     if (result != NOOK_OK)
         return result;
     text[length - 1] = '\0';
     const nook_ao_technique *technique = nook_technique_find(text + 1);
     if (!technique) {
-        nook_technique_refuse(r->where, text + 1);
+        nook_technique_refuse(r->lines.where, text + 1);
         return NOOK_E_FORMAT;
     }
-    r->block = (nook_sweep_block){ .file = r->name, .technique = technique };
-    r->block_line = r->line;
+    r->block = (nook_sweep_block){ .file = r->lines.file, .technique = technique };
+    r->block_line = r->lines.line;
     return NOOK_OK;
-}
-
-/* Cuts blanks off both ends, in place. */
-static char *trim(char *text)
-{
-    text += strspn(text, blanks);
-    size_t length = strlen(text);
-    while (length > 0 && strchr(blanks, text[length - 1]))
-        text[--length] = '\0';
-    return text;
 }
 
 static nook_result read_entry(reading *r, char *text)
 {
     if (text[0] == '[')
         return begin_block(r, text);
-    char *equals = strchr(text, '=');
-    if (!equals)
-        return nook_fail(NOOK_E_FORMAT, "%s: give name = values, or [technique]", r->where);
-    *equals = '\0';
-    char *name = trim(text), *values = trim(equals + 1);
-    if (!*name || strpbrk(name, blanks) || !*values)
-        return nook_fail(NOOK_E_FORMAT, "%s: give name = values", r->where);
-    return r->block_line > 0 ? nook_sweep_block_add(&r->block, r->line, name, values) : read_general(r, name, values);
+    char *name, *values;
+    if (!strchr(text, '='))
+        return nook_fail(NOOK_E_FORMAT, "%s: give name = values, or [technique]", r->lines.where);
+    if (!nook_line_split(text, &name, &values))
+        return nook_fail(NOOK_E_FORMAT, "%s: give name = values", r->lines.where);
+    return r->block_line > 0 ? nook_sweep_block_add(&r->block, r->lines.line, name, values)
+                             : read_general(r, name, values);
 }
 
-static nook_result read_line(reading *r, const char *text, size_t length)
+static nook_result read_lines(reading *r)
 {
-    char line[NOOK_SWEEP_LINE_MAX];
-    snprintf(r->where, sizeof r->where, "%s:%u", r->name, r->line);
-    const char *comment = memchr(text, '#', length);
-    if (comment)
-        length = (size_t)(comment - text);
-    if (length >= sizeof line || memchr(text, '\0', length))
-        return nook_fail(NOOK_E_FORMAT, "%s: no sweep: a line of it is no text, or too long", r->where);
-    memcpy(line, text, length);
-    line[length] = '\0';
-    char *trimmed = trim(line);
-    return *trimmed ? read_entry(r, trimmed) : NOOK_OK;
-}
-
-static nook_result read_lines(reading *r, const char *text, size_t size)
-{
-    nook_result result = NOOK_OK;
-    for (size_t at = 0; at < size && result == NOOK_OK;) {
-        const char *end = memchr(text + at, '\n', size - at);
-        size_t length = end ? (size_t)(end - text) - at : size - at;
-        r->line++;
-        result = read_line(r, text + at, length);
-        at += length + 1;
+    char *line;
+    nook_result result = nook_line_next(&r->lines, &line);
+    while (result == NOOK_OK && line) {
+        result = read_entry(r, line);
+        if (result == NOOK_OK)
+            result = nook_line_next(&r->lines, &line);
     }
     if (result == NOOK_OK)
         result = end_block(r);
     if (result == NOOK_OK && r->sweep.setting_count == 0)
-        result = nook_fail(NOOK_E_FORMAT, "%s: no setting in it; add a line such as [volume]", r->name);
+        result = nook_fail(NOOK_E_FORMAT, "%s: no setting in it; add a line such as [volume]", r->lines.file);
     return result;
 }
 
@@ -223,7 +194,11 @@ nook_result nook_sweep_parse(const char *name, const char *text, size_t size, no
     reading *r = calloc(1, sizeof *r);
     if (!r)
         return nook_fail(NOOK_E_MEMORY, "%s: no memory to read it", name);
-    r->name = name;
+    r->lines = (nook_line_reader){ .file = name,
+                                   .text = text,
+                                   .size = size,
+                                   .longest = NOOK_SWEEP_LINE_MAX - 1,
+                                   .refusal = "no sweep: a line of it is no text, or too long" };
     r->sweep = (nook_sweep){ .width = 480,
                              .height = 270,
                              .r_max = { { NOOK_VOLUMES_R_MAX_DEFAULT, false } },
@@ -233,7 +208,7 @@ nook_result nook_sweep_parse(const char *name, const char *text, size_t size, no
                              .camera_count = 1,
                              .noise = 0.004,
                              .rays_max = 1 << 14 };
-    nook_result result = read_lines(r, text, size);
+    nook_result result = read_lines(r);
     if (result == NOOK_OK)
         *out_sweep = r->sweep;
     else

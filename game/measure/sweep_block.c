@@ -6,13 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { WHERE_MAX_BYTES = 4096 + 32 };
-
-static const char blanks[] = " \t\r";
-
-static const char *place(const nook_sweep_block *block, unsigned line, char out[WHERE_MAX_BYTES])
+static const char *place(const nook_sweep_block *block, unsigned line, char out[NOOK_LINE_WHERE_SIZE])
 {
-    snprintf(out, WHERE_MAX_BYTES, "%s:%u", block->file, line);
+    snprintf(out, NOOK_LINE_WHERE_SIZE, "%s:%u", block->file, line);
     return out;
 }
 
@@ -26,7 +22,7 @@ static void make_plain(nook_setting *setting)
 /* Cuts the values apart in place. */
 static nook_result split_values(const char *where, char *text, nook_sweep_list *list)
 {
-    for (char *word = strtok(text, blanks); word; word = strtok(NULL, blanks)) {
+    for (char *word = strtok(text, NOOK_LINE_BLANKS); word; word = strtok(NULL, NOOK_LINE_BLANKS)) {
         if (list->count == NOOK_SWEEP_VALUES_MAX)
             return nook_fail(NOOK_E_FORMAT, "%s: %s has more than %d values", where, list->name, NOOK_SWEEP_VALUES_MAX);
         list->values[list->count++] = word;
@@ -46,7 +42,7 @@ static nook_result try_values(const char *where, const nook_sweep_block *block, 
 
 nook_result nook_sweep_block_add(nook_sweep_block *block, unsigned line, const char *name, const char *values)
 {
-    char where[WHERE_MAX_BYTES];
+    char where[NOOK_LINE_WHERE_SIZE];
     place(block, line, where);
     if (block->list_count == NOOK_SWEEP_LISTS_MAX)
         return nook_fail(NOOK_E_FORMAT, "%s: more than %d lists in one block", where, NOOK_SWEEP_LISTS_MAX);
@@ -98,7 +94,7 @@ nook_result nook_sweep_add(const char *where, nook_sweep *sweep, const nook_sett
 /* The index-th combination; the last list's values change fastest. */
 static nook_result combine(const nook_sweep_block *block, uint64_t index, nook_setting *out_setting)
 {
-    char where[WHERE_MAX_BYTES];
+    char where[NOOK_LINE_WHERE_SIZE];
     *out_setting = nook_setting_initial(block->technique);
     for (uint32_t i = block->list_count; i > 0; i--) {
         const nook_sweep_list *list = &block->lists[i - 1];
@@ -113,7 +109,7 @@ static nook_result combine(const nook_sweep_block *block, uint64_t index, nook_s
 
 nook_result nook_sweep_block_expand(const nook_sweep_block *block, nook_sweep *sweep)
 {
-    char where[WHERE_MAX_BYTES];
+    char where[NOOK_LINE_WHERE_SIZE];
     place(block, block->list_count > 0 ? block->lists[0].line : 0, where);
     nook_setting setting = nook_setting_initial(block->technique);
     nook_result result = block->technique->exact ? NOOK_OK : nook_sweep_add(where, sweep, &setting);

@@ -1,7 +1,8 @@
 #pragma once
 #include "game/measure/sweep.h"
+#include "game/settings/line_reader.h"
 
-enum { NOOK_SWEEP_LISTS_MAX = 16, NOOK_SWEEP_VALUES_MAX = 32, NOOK_SWEEP_LINE_MAX = 1024 };
+enum { NOOK_SWEEP_LISTS_MAX = 16, NOOK_SWEEP_VALUES_MAX = 32, NOOK_SWEEP_LINE_MAX = NOOK_LINE_CAPACITY };
 
 /** "rays = 4 8 16" of a block. */
 typedef struct nook_sweep_list {

@@ -1,48 +1,23 @@
 #include "game/settings/settings_file.h"
 #include "engine/core/file.h"
 #include "engine/core/log.h"
+#include "game/settings/line_reader.h"
 #include "game/techniques.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { LINE_MAX_BYTES = 256, WHERE_MAX_BYTES = 4096 + 32, SEEN_MAX = 64 };
-static const char blanks[] = " \t\r";
+enum { LINE_MAX_BYTES = 256, SEEN_MAX = 64 };
 
 /* ---- Reading ---------------------------------------------------------------------------------------------------- */
 
 /* A file being read. */
 typedef struct reading {
-    const char *path;
-    unsigned line;
-    char where[WHERE_MAX_BYTES]; /* "file:line" */
+    nook_line_reader lines;
     nook_settings_file out;
     char seen[SEEN_MAX][LINE_MAX_BYTES]; /* names so far: each may stand once */
     size_t seen_count;
 } reading;
-
-/* Cuts comment and blanks off. @return NULL for a line without anything */
-static char *trim(char *line)
-{
-    line[strcspn(line, "#")] = '\0';
-    line += strspn(line, blanks);
-    size_t length = strlen(line);
-    while (length > 0 && strchr(blanks, line[length - 1]))
-        line[--length] = '\0';
-    return length > 0 ? line : NULL;
-}
-
-/* "name = value" in place. @return false when it is something else */
-static bool split(char *line, char **out_name, char **out_value)
-{
-    char *equals = strchr(line, '=');
-    if (!equals)
-        return false;
-    *equals = '\0';
-    *out_name = trim(line);
-    *out_value = trim(equals + 1);
-    return *out_name && *out_value && !strpbrk(*out_name, blanks) && !strpbrk(*out_value, blanks);
-}
 
 static bool is_new(reading *r, const char *name)
 {
@@ -58,11 +33,11 @@ static bool is_new(reading *r, const char *name)
 static nook_result read_technique(reading *r, const char *name, const char *value)
 {
     if (strcmp(name, "technique") != 0)
-        return nook_fail(NOOK_E_FORMAT, "%s: %s before the technique; the first line is technique = NAME", r->where,
-                         name);
+        return nook_fail(NOOK_E_FORMAT, "%s: %s before the technique; the first line is technique = NAME",
+                         r->lines.where, name);
     const nook_ao_technique *technique = nook_technique_find(value);
     if (!technique)
-        return nook_technique_refuse(r->where, value);
+        return nook_technique_refuse(r->lines.where, value);
     r->out.setting = nook_setting_initial(technique);
     return NOOK_OK;
 }
@@ -70,11 +45,11 @@ static nook_result read_technique(reading *r, const char *name, const char *valu
 /* One of the shared parameters that say what is computed. @return its value, as text was checked */
 static nook_result read_shared(reading *r, const char *name, const char *value, double *out_value)
 {
-    char owner[WHERE_MAX_BYTES + 8];
+    char owner[NOOK_LINE_WHERE_SIZE + 8];
     nook_param alone = *nook_shared_param(name);
     int32_t block = 0; /* room for any one value */
     alone.offset = 0;
-    snprintf(owner, sizeof owner, "%s: ao", r->where);
+    snprintf(owner, sizeof owner, "%s: ao", r->lines.where);
     nook_result result = nook_param_parse(&alone, owner, &block, value);
     if (result == NOOK_OK)
         *out_value = alone.type == NOOK_PARAM_FLOAT ? strtod(value, NULL) : nook_param_get(&alone, &block);
@@ -85,52 +60,34 @@ static nook_result read_entry(reading *r, const char *name, const char *value)
 {
     double choice;
     if (!is_new(r, name))
-        return nook_fail(NOOK_E_FORMAT, "%s: %s stands there twice; leave one of them", r->where, name);
+        return nook_fail(NOOK_E_FORMAT, "%s: %s stands there twice; leave one of them", r->lines.where, name);
     if (!r->out.setting.technique)
         return read_technique(r, name, value);
     if (strcmp(name, "r_max") == 0)
         return read_shared(r, name, value, &r->out.r_max);
     if (strcmp(name, "falloff") != 0)
-        return nook_setting_assign(r->where, &r->out.setting, name, value);
+        return nook_setting_assign(r->lines.where, &r->out.setting, name, value);
     nook_result result = read_shared(r, name, value, &choice);
     if (result == NOOK_OK)
         snprintf(r->out.falloff, sizeof r->out.falloff, "%s", value);
     return result;
 }
 
-static nook_result read_line(reading *r, const char *text, size_t length)
+static nook_result read_lines(reading *r)
 {
-    char line[LINE_MAX_BYTES], *name, *value;
-    snprintf(r->where, sizeof r->where, "%s:%u", r->path, r->line);
-    const char *comment = memchr(text, '#', length);
-    if (comment) /* which may be as long as it likes */
-        length = (size_t)(comment - text);
-    if (length >= sizeof line || memchr(text, '\0', length))
-        return nook_fail(NOOK_E_FORMAT, "%s: no settings file: a line of it is not name = value", r->where);
-    memcpy(line, text, length);
-    line[length] = '\0';
-    char *trimmed = trim(line);
-    if (!trimmed)
-        return NOOK_OK;
-    if (!split(trimmed, &name, &value))
-        return nook_fail(NOOK_E_FORMAT, "%s: give name = value", r->where);
-    /* Whatever is wrong with the value is wrong with the file. */
-    return read_entry(r, name, value) == NOOK_OK ? NOOK_OK : NOOK_E_FORMAT;
-}
-
-static nook_result read_lines(reading *r, const char *text, size_t size)
-{
-    nook_result result = NOOK_OK;
-    for (size_t at = 0; at < size && result == NOOK_OK;) {
-        const char *end = memchr(text + at, '\n', size - at);
-        size_t length = end ? (size_t)(end - text) - at : size - at;
-        r->line++;
-        result = read_line(r, text + at, length);
-        at += length + 1;
+    char *line, *name, *value;
+    nook_result result = nook_line_next(&r->lines, &line);
+    while (result == NOOK_OK && line) {
+        if (!nook_line_split(line, &name, &value) || strpbrk(value, NOOK_LINE_BLANKS))
+            return nook_fail(NOOK_E_FORMAT, "%s: give name = value", r->lines.where);
+        if (read_entry(r, name, value) != NOOK_OK)
+            return NOOK_E_FORMAT; /* whatever is wrong with the value is wrong with the file */
+        result = nook_line_next(&r->lines, &line);
     }
     if (result == NOOK_OK && !r->out.setting.technique)
-        result = nook_fail(NOOK_E_FORMAT,
-                           "%s: no settings file: it names no technique; the first line is technique = NAME", r->path);
+        result =
+            nook_fail(NOOK_E_FORMAT, "%s: no settings file: it names no technique; the first line is technique = NAME",
+                      r->lines.file);
     return result;
 }
 
@@ -142,8 +99,12 @@ nook_result nook_settings_file_read(const char *path, nook_settings_file *out)
         return result;
     reading *r = calloc(1, sizeof *r);
     if (r) {
-        r->path = path;
-        result = read_lines(r, (const char *)file.bytes, file.size);
+        r->lines = (nook_line_reader){ .file = path,
+                                       .text = (const char *)file.bytes,
+                                       .size = file.size,
+                                       .longest = LINE_MAX_BYTES - 1,
+                                       .refusal = "no settings file: a line of it is not name = value" };
+        result = read_lines(r);
     } else {
         result = nook_fail(NOOK_E_MEMORY, "%s: no memory to read it", path);
     }

@@ -1,0 +1,58 @@
+#include "game/settings/line_reader.h"
+#include "engine/core/log.h"
+#include <assert.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Cuts blanks off both ends, in place. */
+static char *trim(char *text)
+{
+    text += strspn(text, NOOK_LINE_BLANKS);
+    size_t length = strlen(text);
+    while (length > 0 && strchr(NOOK_LINE_BLANKS, text[length - 1]))
+        text[--length] = '\0';
+    return text;
+}
+
+/* Copies a line without its comment, which may be as long as it likes. */
+static nook_result take(nook_line_reader *reader, const char *text, size_t length)
+{
+    const char *comment = memchr(text, '#', length);
+    if (comment)
+        length = (size_t)(comment - text);
+    if (length > reader->longest || memchr(text, '\0', length))
+        return nook_fail(NOOK_E_FORMAT, "%s: %s", reader->where, reader->refusal);
+    memcpy(reader->buffer, text, length);
+    reader->buffer[length] = '\0';
+    return NOOK_OK;
+}
+
+nook_result nook_line_next(nook_line_reader *reader, char **out_line)
+{
+    assert(reader->longest < NOOK_LINE_CAPACITY);
+    *out_line = NULL;
+    while (reader->at < reader->size && !*out_line) {
+        const char *text = reader->text + reader->at;
+        const char *end = memchr(text, '\n', reader->size - reader->at);
+        size_t length = end ? (size_t)(end - text) : reader->size - reader->at;
+        reader->at += length + 1;
+        snprintf(reader->where, sizeof reader->where, "%s:%u", reader->file, ++reader->line);
+        nook_result result = take(reader, text, length);
+        if (result != NOOK_OK)
+            return result;
+        char *line = trim(reader->buffer);
+        *out_line = *line ? line : NULL;
+    }
+    return NOOK_OK;
+}
+
+bool nook_line_split(char *line, char **out_name, char **out_value)
+{
+    char *equals = strchr(line, '=');
+    if (!equals)
+        return false;
+    *equals = '\0';
+    *out_name = trim(line);
+    *out_value = trim(equals + 1);
+    return **out_name && !strpbrk(*out_name, NOOK_LINE_BLANKS) && **out_value;
+}
