@@ -20,6 +20,17 @@ void nook_edge_receiver_free(nook_edge_receiver *receiver)
     *receiver = (nook_edge_receiver){ 0 };
 }
 
+nook_result nook_edge_receiver_look(const nook_extremes *extremes, nook_extreme_found *found,
+                                    nook_result (*look)(const nook_extremes *extremes, nook_edge_receiver *receiver))
+{
+    nook_edge_receiver receiver;
+    nook_result result = nook_edge_receiver_make(extremes, found, &receiver);
+    if (result == NOOK_OK)
+        result = look(extremes, &receiver);
+    nook_edge_receiver_free(&receiver);
+    return result;
+}
+
 nook_result nook_edge_receiver_set(nook_edge_receiver *receiver, double r_max, const char *format, ...)
 {
     char text[NOOK_SETTING_TEXT_MAX];

@@ -20,6 +20,10 @@ nook_result nook_edge_receiver_make(const nook_extremes *extremes, nook_extreme_
                                     nook_edge_receiver *out_receiver);
 void nook_edge_receiver_free(nook_edge_receiver *receiver); /**< Zeroed is allowed. */
 
+/** Runs what looks from one receiver, which is made before and freed after. @return as nook_edge_receiver_make and `look` */
+nook_result nook_edge_receiver_look(const nook_extremes *extremes, nook_extreme_found *found,
+                                    nook_result (*look)(const nook_extremes *extremes, nook_edge_receiver *receiver));
+
 /** Chooses r_max, hard falloff, no filter, and a setting by its text: "volume rays=64". @param format printf-style */
 nook_result nook_edge_receiver_set(nook_edge_receiver *receiver, double r_max, const char *format, ...)
     NOOK_PRINTF(3, 4);

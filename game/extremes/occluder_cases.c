@@ -17,18 +17,6 @@ static uint32_t most(const nook_extremes *extremes)
     return extremes->quick ? MOST_QUICK : MOST;
 }
 
-typedef nook_result (*look_from)(const nook_extremes *extremes, nook_edge_receiver *receiver);
-
-static nook_result look(const nook_extremes *extremes, nook_extreme_found *out_found, look_from from)
-{
-    nook_edge_receiver receiver;
-    nook_result result = nook_edge_receiver_make(extremes, out_found, &receiver);
-    if (result == NOOK_OK)
-        result = from(extremes, &receiver);
-    nook_edge_receiver_free(&receiver);
-    return result;
-}
-
 /* ---- Piling up -------------------------------------------------------------------------------------------------- */
 
 /* A crate that hides some of the sky, as the only occluder. */
@@ -110,7 +98,7 @@ static nook_result look_at_identical(const nook_extremes *extremes, nook_edge_re
 
 static nook_result run_identical(const nook_extremes *extremes, nook_extreme_found *out_found)
 {
-    return look(extremes, out_found, look_at_identical);
+    return nook_edge_receiver_look(extremes, out_found, look_at_identical);
 }
 
 /* The product of a pixel's visibility with itself; each factor rounds once, and what a float cannot hold is 0. */
@@ -149,7 +137,7 @@ static nook_result look_at_powers(const nook_extremes *extremes, nook_edge_recei
 
 static nook_result run_powers(const nook_extremes *extremes, nook_extreme_found *out_found)
 {
-    return look(extremes, out_found, look_at_powers);
+    return nook_edge_receiver_look(extremes, out_found, look_at_powers);
 }
 
 /* ---- Different ones --------------------------------------------------------------------------------------------- */
@@ -183,7 +171,7 @@ static nook_result look_at_growing(const nook_extremes *extremes, nook_edge_rece
 
 static nook_result run_growing(const nook_extremes *extremes, nook_extreme_found *out_found)
 {
-    return look(extremes, out_found, look_at_growing);
+    return nook_edge_receiver_look(extremes, out_found, look_at_growing);
 }
 
 /* Swaps occluders by a fixed sequence. */
@@ -234,7 +222,7 @@ static nook_result look_at_orders(const nook_extremes *extremes, nook_edge_recei
 
 static nook_result run_orders(const nook_extremes *extremes, nook_extreme_found *out_found)
 {
-    return look(extremes, out_found, look_at_orders);
+    return nook_edge_receiver_look(extremes, out_found, look_at_orders);
 }
 
 /* ---- One that is none ------------------------------------------------------------------------------------------- */
@@ -273,7 +261,7 @@ static nook_result look_at_singular(const nook_extremes *extremes, nook_edge_rec
 
 static nook_result run_singular(const nook_extremes *extremes, nook_extreme_found *out_found)
 {
-    return look(extremes, out_found, look_at_singular);
+    return nook_edge_receiver_look(extremes, out_found, look_at_singular);
 }
 
 /* ---- All of them on every ray ----------------------------------------------------------------------------------- */
@@ -329,7 +317,7 @@ static nook_result look_through_air(const nook_extremes *extremes, nook_edge_rec
 
 static nook_result run_air(const nook_extremes *extremes, nook_extreme_found *out_found)
 {
-    return look(extremes, out_found, look_through_air);
+    return nook_edge_receiver_look(extremes, out_found, look_through_air);
 }
 
 static const nook_extreme cases[] = {

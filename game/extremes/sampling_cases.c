@@ -13,18 +13,6 @@ static const double thresholds[] = { 0.01, 0.1, 0.3, 0.5, 0.7, 0.9, 0.99 };
 static const char *const steppings[] = { "fixed", "matched" }, *const combines[] = { "multiply", "union" },
                          *const guards[] = { "slab", "lifted" };
 
-typedef nook_result (*look_from)(const nook_extremes *extremes, nook_edge_receiver *receiver);
-
-static nook_result look(const nook_extremes *extremes, nook_extreme_found *out_found, look_from from)
-{
-    nook_edge_receiver receiver;
-    nook_result result = nook_edge_receiver_make(extremes, out_found, &receiver);
-    if (result == NOOK_OK)
-        result = from(extremes, &receiver);
-    nook_edge_receiver_free(&receiver);
-    return result;
-}
-
 /* ---- In a closed box -------------------------------------------------------------------------------------------- */
 
 enum { BOX_SIDE = 32 }; /* voxels; the receiver is in the middle of its floor */
@@ -71,7 +59,7 @@ static nook_result look_at_rays(const nook_extremes *extremes, nook_edge_receive
 
 static nook_result run_rays(const nook_extremes *extremes, nook_extreme_found *out_found)
 {
-    return look(extremes, out_found, look_at_rays);
+    return nook_edge_receiver_look(extremes, out_found, look_at_rays);
 }
 
 /*
@@ -110,7 +98,7 @@ static nook_result look_at_budgets(const nook_extremes *extremes, nook_edge_rece
 
 static nook_result run_budgets(const nook_extremes *extremes, nook_extreme_found *out_found)
 {
-    return look(extremes, out_found, look_at_budgets);
+    return nook_edge_receiver_look(extremes, out_found, look_at_budgets);
 }
 
 /* ---- On an open floor ------------------------------------------------------------------------------------------- */
@@ -161,7 +149,7 @@ static nook_result look_at_floors(const nook_extremes *extremes, nook_edge_recei
 
 static nook_result run_floors(const nook_extremes *extremes, nook_extreme_found *out_found)
 {
-    return look(extremes, out_found, look_at_floors);
+    return nook_edge_receiver_look(extremes, out_found, look_at_floors);
 }
 
 /* ---- More of everything ----------------------------------------------------------------------------------------- */

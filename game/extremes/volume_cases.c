@@ -116,18 +116,6 @@ static nook_result measure(nook_edge_receiver *receiver, const char *what, uint3
     return result;
 }
 
-/* Runs a case that looks from one receiver. */
-static nook_result look(const nook_extremes *extremes, nook_extreme_found *out_found,
-                        nook_result (*from)(const nook_extremes *extremes, nook_edge_receiver *receiver))
-{
-    nook_edge_receiver receiver;
-    nook_result result = nook_edge_receiver_make(extremes, out_found, &receiver);
-    if (result == NOOK_OK)
-        result = from(extremes, &receiver);
-    nook_edge_receiver_free(&receiver);
-    return result;
-}
-
 static nook_result look_in_boxes(const nook_extremes *extremes, nook_edge_receiver *receiver)
 {
     size_t count = side_count(extremes);
@@ -146,7 +134,7 @@ static nook_result look_in_boxes(const nook_extremes *extremes, nook_edge_receiv
 
 static nook_result run_boxes(const nook_extremes *extremes, nook_extreme_found *out_found)
 {
-    return look(extremes, out_found, look_in_boxes);
+    return nook_edge_receiver_look(extremes, out_found, look_in_boxes);
 }
 
 static nook_result look_at_slabs(const nook_extremes *extremes, nook_edge_receiver *receiver)
@@ -170,7 +158,7 @@ static nook_result look_at_slabs(const nook_extremes *extremes, nook_edge_receiv
 
 static nook_result run_slabs(const nook_extremes *extremes, nook_extreme_found *out_found)
 {
-    return look(extremes, out_found, look_at_slabs);
+    return nook_edge_receiver_look(extremes, out_found, look_at_slabs);
 }
 
 /* ---- What is one voxel thick ------------------------------------------------------------------------------------ */
@@ -216,7 +204,7 @@ static nook_result look_at_needles(const nook_extremes *extremes, nook_edge_rece
 
 static nook_result run_needles(const nook_extremes *extremes, nook_extreme_found *out_found)
 {
-    return look(extremes, out_found, look_at_needles);
+    return nook_edge_receiver_look(extremes, out_found, look_at_needles);
 }
 
 /* ---- Empty and full --------------------------------------------------------------------------------------------- */
@@ -268,7 +256,7 @@ static nook_result look_in_empty(const nook_extremes *extremes, nook_edge_receiv
 
 static nook_result run_empty(const nook_extremes *extremes, nook_extreme_found *out_found)
 {
-    return look(extremes, out_found, look_in_empty);
+    return nook_edge_receiver_look(extremes, out_found, look_in_empty);
 }
 
 static nook_result look_in_full(const nook_extremes *extremes, nook_edge_receiver *receiver)
@@ -291,7 +279,7 @@ static nook_result look_in_full(const nook_extremes *extremes, nook_edge_receive
 
 static nook_result run_full_inside(const nook_extremes *extremes, nook_extreme_found *out_found)
 {
-    return look(extremes, out_found, look_in_full);
+    return nook_edge_receiver_look(extremes, out_found, look_in_full);
 }
 
 static nook_result look_at_full(const nook_extremes *extremes, nook_edge_receiver *receiver)
@@ -315,7 +303,7 @@ static nook_result look_at_full(const nook_extremes *extremes, nook_edge_receive
 
 static nook_result run_full_outside(const nook_extremes *extremes, nook_extreme_found *out_found)
 {
-    return look(extremes, out_found, look_at_full);
+    return nook_edge_receiver_look(extremes, out_found, look_at_full);
 }
 
 static const nook_extreme cases[] = {
