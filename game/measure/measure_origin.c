@@ -1,10 +1,8 @@
 #include "game/measure/measure_origin.h"
 #include "engine/core/file.h"
 #include "engine/core/jobs.h"
-#include "engine/core/log.h"
 #include "engine/gpu/gpu.h"
-#include <dirent.h>
-#include <errno.h>
+#include "game/measure/folder_walk.h"
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -16,8 +14,9 @@ enum { PATH_CAPACITY = 4096, DEPTH_MAX = 8 };
 
 /* ---- Build ------------------------------------------------------------------------------------------------------ */
 
-static nook_result add_file(const char *path, uint64_t *hash)
+static nook_result add_file(void *user, const char *path)
 {
+    uint64_t *hash = user;
     nook_file file;
     nook_result result = nook_file_read(path, &file);
     if (result != NOOK_OK)
@@ -27,46 +26,21 @@ static nook_result add_file(const char *path, uint64_t *hash)
     return NOOK_OK;
 }
 
-static int is_visible(const struct dirent *entry)
-{
-    return entry->d_name[0] != '.';
-}
-
 static bool is_compiled_at_run_time(const char *name)
 {
     const char *extension = nook_path_extension(name);
     return strcmp(extension, ".glsl") == 0 || strcmp(extension, ".def") == 0;
 }
 
-/* Every shader below a folder, in the order of their names. */
-static nook_result add_folder(const char *folder, int depth, uint64_t *hash)
-{
-    struct dirent **entries;
-    int count = scandir(folder, &entries, is_visible, alphasort);
-    if (count < 0)
-        return nook_fail(NOOK_E_IO, "%s: cannot read: %s", folder, strerror(errno));
-    nook_result result = NOOK_OK;
-    for (int i = 0; i < count; i++) {
-        char path[PATH_CAPACITY];
-        nook_path_join(path, sizeof path, folder, entries[i]->d_name);
-        if (result == NOOK_OK && is_compiled_at_run_time(path))
-            result = add_file(path, hash);
-        else if (result == NOOK_OK && depth < DEPTH_MAX && nook_directory_exists(path))
-            result = add_folder(path, depth + 1, hash);
-        free(entries[i]);
-    }
-    free(entries);
-    return result;
-}
-
 nook_result nook_origin_build(const char *root, char out[NOOK_ORIGIN_BUILD_SIZE])
 {
     static const char *const folders[] = { "shaders", "modules" };
     uint64_t hash = 0;
-    nook_result result = add_file("/proc/self/exe", &hash);
+    const nook_folder_visitor visitor = { is_compiled_at_run_time, add_file, &hash };
+    nook_result result = add_file(&hash, "/proc/self/exe");
     for (size_t i = 0; i < NOOK_COUNT(folders) && result == NOOK_OK; i++) {
         char path[PATH_CAPACITY];
-        result = add_folder(nook_path_join(path, sizeof path, root, folders[i]), 0, &hash);
+        result = nook_folder_walk(nook_path_join(path, sizeof path, root, folders[i]), DEPTH_MAX, &visitor);
     }
     if (result == NOOK_OK)
         snprintf(out, NOOK_ORIGIN_BUILD_SIZE, "%016" PRIx64, hash);
