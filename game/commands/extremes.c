@@ -1,6 +1,5 @@
-#include "engine/core/file.h"
-#include "engine/platform/context.h"
 #include "game/commands/commands.h"
+#include "game/commands/findings.h"
 #include "game/extremes/extreme_report.h"
 #include "game/extremes/scratch_folder.h"
 #include "game/option_rows.h"
@@ -49,22 +48,16 @@ static void end_case(void *user, const nook_extreme_row *row)
 static nook_result report(const extremes_options *options, const nook_gpu *gpu, const nook_extreme_rows *rows)
 {
     nook_json json = { 0 };
-    const char *text;
-    size_t size;
     nook_extreme_write_json(&json, rows, gpu->renderer, options->quick);
-    nook_result result = nook_json_finish(&json, &text, &size);
-    if (result == NOOK_OK && options->out)
-        result = nook_file_write(options->out, text, size);
-    if (result == NOOK_OK && options->json)
-        result = nook_json_print(&json, stdout);
-    nook_json_free(&json);
+    nook_result result = nook_findings_put_json(&json, options->out, options->json);
     if (result == NOOK_OK && !options->json)
         nook_extreme_print_summary(stdout, rows);
     return result;
 }
 
-static nook_result run_on(const extremes_options *options, nook_gpu *gpu, bool *out_hold)
+static nook_result run_on(void *user, nook_gpu *gpu, bool *out_hold)
 {
+    const extremes_options *options = user;
     nook_scratch_folder scratch;
     nook_result result = nook_scratch_folder_make(&scratch);
     if (result != NOOK_OK)
@@ -84,23 +77,6 @@ static nook_result run_on(const extremes_options *options, nook_gpu *gpu, bool *
     result = report(options, gpu, &rows);
     nook_extreme_rows_free(&rows);
     return result;
-}
-
-static int run_with_device(const nook_app *app, const extremes_options *options)
-{
-    bool hold = false;
-    nook_context *context;
-    nook_gpu *gpu = NULL;
-    const nook_context_desc desc = { .backend = options->backend };
-    if (nook_context_create(&desc, &context) != NOOK_OK)
-        return NOOK_EXIT_FAILED;
-    const nook_gpu_desc gpu_desc = { nook_context_get_proc(context), app->root, .log_debug_output = true };
-    nook_result result = nook_gpu_create(&gpu_desc, &gpu);
-    if (result == NOOK_OK)
-        result = run_on(options, gpu, &hold);
-    nook_gpu_destroy(gpu);
-    nook_context_destroy(context);
-    return result == NOOK_OK && hold ? NOOK_EXIT_OK : NOOK_EXIT_FAILED;
 }
 
 int nook_command_extremes(const nook_app *app, int argc, char **argv)
@@ -145,5 +121,5 @@ int nook_command_extremes(const nook_app *app, int argc, char **argv)
         nook_extreme_print_list(stdout, settings.only);
         return NOOK_EXIT_OK;
     }
-    return run_with_device(app, &settings);
+    return nook_findings_with_device(app, settings.backend, run_on, &settings);
 }

@@ -1,7 +1,6 @@
 #include "engine/core/clock.h"
-#include "engine/core/file.h"
-#include "engine/platform/context.h"
 #include "game/commands/commands.h"
+#include "game/commands/findings.h"
 #include "game/option_rows.h"
 #include "game/verify/verify_report.h"
 #include "game/verify/verify_run.h"
@@ -32,15 +31,8 @@ static nook_result report(const verify_options *options, const nook_gpu *gpu, co
                           double seconds)
 {
     nook_json json = { 0 };
-    const char *text;
-    size_t size;
     nook_verify_write_json(&json, rows, gpu->renderer, seconds);
-    nook_result result = nook_json_finish(&json, &text, &size);
-    if (result == NOOK_OK && options->out)
-        result = nook_file_write(options->out, text, size);
-    if (result == NOOK_OK && options->json)
-        result = nook_json_print(&json, stdout);
-    nook_json_free(&json);
+    nook_result result = nook_findings_put_json(&json, options->out, options->json);
     if (result == NOOK_OK && !options->json) {
         nook_verify_print_notes(stdout, rows);
         nook_verify_print_summary(stdout, rows, seconds);
@@ -48,8 +40,16 @@ static nook_result report(const verify_options *options, const nook_gpu *gpu, co
     return result;
 }
 
-static nook_result run_on(const verify_options *options, nook_verify_desc *desc, bool *out_hold)
+/* What is asked for. */
+typedef struct verify_request {
+    const verify_options *options;
+    nook_verify_desc desc;
+} verify_request;
+
+static nook_result run_on(void *user, nook_gpu *gpu, bool *out_hold)
 {
+    verify_request *request = user;
+    const verify_options *options = request->options;
     table printed = { .begun = false };
     nook_verify_rows rows = { 0 };
     double started = nook_clock_ms();
@@ -57,29 +57,14 @@ static nook_result run_on(const verify_options *options, nook_verify_desc *desc,
         rows.listener = (nook_verify_listener){ print_row, &printed };
         nook_verify_print_head(stdout);
     }
-    nook_result result = nook_verify_run(desc, &rows);
+    request->desc.gpu = gpu;
+    nook_result result = nook_verify_run(&request->desc, &rows);
     if (result == NOOK_OK)
-        result = report(options, desc->gpu, &rows, (nook_clock_ms() - started) / 1000.0);
+        result = report(options, gpu, &rows, (nook_clock_ms() - started) / 1000.0);
     nook_verify_summary sum = nook_verify_summarize(&rows);
     *out_hold = sum.verdicts[NOOK_VERDICT_OFF] == 0 && sum.checks > 0;
     nook_verify_rows_free(&rows);
     return result;
-}
-
-static int run_with_device(const nook_app *app, const verify_options *options, nook_verify_desc *desc)
-{
-    bool hold = false;
-    nook_context *context;
-    const nook_context_desc context_desc = { .backend = options->backend };
-    if (nook_context_create(&context_desc, &context) != NOOK_OK)
-        return NOOK_EXIT_FAILED;
-    const nook_gpu_desc gpu_desc = { nook_context_get_proc(context), app->root, .log_debug_output = true };
-    nook_result result = nook_gpu_create(&gpu_desc, &desc->gpu);
-    if (result == NOOK_OK)
-        result = run_on(options, desc, &hold);
-    nook_gpu_destroy(desc->gpu);
-    nook_context_destroy(context);
-    return result == NOOK_OK && hold ? NOOK_EXIT_OK : NOOK_EXIT_FAILED;
 }
 
 /** @return false: *out_exit_code says how to end */
@@ -129,10 +114,10 @@ int nook_command_verify(const nook_app *app, int argc, char **argv)
     int exit_code;
     if (!read_options(argc, argv, &settings, &exit_code))
         return exit_code;
-    nook_verify_desc desc = { .rays = (uint32_t)settings.rays, .quick = settings.quick };
+    verify_request request = { &settings, { .rays = (uint32_t)settings.rays, .quick = settings.quick } };
     char fixtures[1024];
-    if (nook_verify_choose_techniques(settings.techniques, &desc) != NOOK_OK ||
-        nook_verify_choose_fixtures(settings.fixtures, &desc, fixtures, sizeof fixtures) != NOOK_OK)
+    if (nook_verify_choose_techniques(settings.techniques, &request.desc) != NOOK_OK ||
+        nook_verify_choose_fixtures(settings.fixtures, &request.desc, fixtures, sizeof fixtures) != NOOK_OK)
         return NOOK_EXIT_FAILED;
-    return run_with_device(app, &settings, &desc);
+    return nook_findings_with_device(app, settings.backend, run_on, &request);
 }
