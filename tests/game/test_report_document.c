@@ -30,19 +30,6 @@ static const char *write_document(const char *name, const char *first, const cha
     return path;
 }
 
-static nook_results make_results(uint32_t scene_count, uint32_t cameras, uint32_t settings)
-{
-    nook_results results;
-    const nook_results_fixture fixture = { .scenes = two_scenes,
-                                           .scene_count = scene_count,
-                                           .cameras = cameras,
-                                           .settings = settings,
-                                           .width = 8,
-                                           .height = 8 };
-    nook_results_fixture_make(&fixture, &results);
-    return results;
-}
-
 static nook_file write_tables(const nook_results *results, const char *path)
 {
     nook_file file;
@@ -66,7 +53,7 @@ static void test_what_stands_outside_the_marks_stays(void **state)
 {
     (void)state;
     const char *path = write_document("outside.md", before, "old tables\n", after);
-    nook_results results = make_results(1, 1, 2);
+    nook_results results = nook_results_fixture_numbers(two_scenes, 1, 1, 2);
     nook_file file = write_tables(&results, path);
     const char *text = (const char *)file.bytes;
     assert_memory_equal(text, before, strlen(before));
@@ -86,7 +73,7 @@ static void test_tables_hold_the_numbers(void **state)
 {
     (void)state;
     const char *path = write_document("numbers.md", before, "", after);
-    nook_results results = make_results(1, 1, 2);
+    nook_results results = nook_results_fixture_numbers(two_scenes, 1, 1, 2);
     nook_sample *volume = &results.rows[0].sample;
     volume->ms_median = 12.34;
     volume->ms_min = 11.5;
@@ -113,7 +100,7 @@ static void test_settings_that_miss_a_camera_say_so(void **state)
 {
     (void)state;
     const char *path = write_document("partial.md", before, "", after);
-    nook_results results = make_results(1, 2, 2);
+    nook_results results = nook_results_fixture_numbers(two_scenes, 1, 2, 2);
     const size_t row_count = results.row_count;
     results.row_count = 8; /* of the second camera only the first setting */
     nook_file file = write_tables(&results, path);
@@ -129,7 +116,7 @@ static void test_front_goes_from_fast_to_slow_and_from_wrong_to_right(void **sta
 {
     (void)state;
     const char *path = write_document("front.md", before, "", after);
-    nook_results results = make_results(1, 2, 8);
+    nook_results results = nook_results_fixture_numbers(two_scenes, 1, 2, 8);
     nook_file file = write_tables(&results, path);
     const char *row = strstr((const char *)file.bytes, "\nThe front: ");
     assert_non_null(row);
@@ -152,7 +139,7 @@ static void test_names_cannot_break_the_tables(void **state)
 {
     (void)state;
     const char *path = write_document("names.md", before, "", after);
-    nook_results results = make_results(2, 1, 1);
+    nook_results results = nook_results_fixture_numbers(two_scenes, 2, 1, 1);
     free(results.rows[0].setting);
     results.rows[0].setting = strdup("volume `x|y");
     nook_file file = write_tables(&results, path);
@@ -175,7 +162,7 @@ static void test_nothing_measured_is_said(void **state)
 static const char *assert_refused(const char *path, nook_result expected)
 {
     static nook_log_capture said;
-    nook_results results = make_results(1, 1, 1);
+    nook_results results = nook_results_fixture_numbers(two_scenes, 1, 1, 1);
     nook_log_capture_begin(&said);
     nook_result result = nook_report_document_write(&results, command, path);
     nook_log_capture_end();

@@ -12,19 +12,6 @@
 
 static const char *const two_scenes[] = { "hall", "crypt" };
 
-static nook_results make_results(uint32_t scene_count, uint32_t cameras, uint32_t settings)
-{
-    nook_results results;
-    const nook_results_fixture fixture = { .scenes = two_scenes,
-                                           .scene_count = scene_count,
-                                           .cameras = cameras,
-                                           .settings = settings,
-                                           .width = 8,
-                                           .height = 8 };
-    nook_results_fixture_make(&fixture, &results);
-    return results;
-}
-
 /* ---- fronts ---- */
 
 static void test_front_holds_what_no_other_beats_in_both(void **state)
@@ -104,7 +91,7 @@ static void test_columns_read_the_sample(void **state)
 static void test_settings_are_summed_up_over_the_cameras_of_their_view(void **state)
 {
     (void)state;
-    nook_results results = make_results(2, 3, 4);
+    nook_results results = nook_results_fixture_numbers(two_scenes, 2, 3, 4);
     nook_summary summary;
     assert_int_equal(nook_summary_create(&results, &summary), NOOK_OK);
     assert_int_equal(summary.view_count, 2);
@@ -143,7 +130,7 @@ static const nook_summary_row *find_row(const nook_summary *summary, const char 
 static void test_truths_and_settings_that_miss_a_camera_are_on_no_front(void **state)
 {
     (void)state;
-    nook_results results = make_results(1, 2, 3);
+    nook_results results = nook_results_fixture_numbers(two_scenes, 1, 2, 3);
     nook_summary summary;
     const size_t row_count =
         results.row_count; /* the last of technique 2 and the reference's; technique 0 stands first */
@@ -169,7 +156,7 @@ static void test_truths_and_settings_that_miss_a_camera_are_on_no_front(void **s
 static void test_noise_of_the_truth_stands_beside_the_smallest_error(void **state)
 {
     (void)state;
-    nook_results results = make_results(1, 2, 3);
+    nook_results results = nook_results_fixture_numbers(two_scenes, 1, 2, 3);
     nook_summary summary;
     results.rows[1].sample.truth.rmse = 0.001;
     results.rows[1].sample.reference_noise = 0.0625;
@@ -186,7 +173,7 @@ static void test_noise_of_the_truth_stands_beside_the_smallest_error(void **stat
 static void test_machines_and_builds_have_fronts_of_their_own(void **state)
 {
     (void)state;
-    nook_results results = make_results(1, 1, 4);
+    nook_results results = nook_results_fixture_numbers(two_scenes, 1, 1, 4);
     nook_summary summary;
     nook_result_row *fast = &results.rows[0], *other = &results.rows[1];
     fast->sample.ms_median = 1e-3; /* would beat all the others */

@@ -1,4 +1,5 @@
 #include "modules/measure/instability.h"
+#include "tests/support/eye.h"
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -7,53 +8,30 @@
 #include <cmocka.h>
 
 /* At 90 degrees and 32 rows the picture of a wall 16 m away has pixels of 1 m. */
-enum { SIDE = 32, PIXELS = SIDE * SIDE };
-static const double right_angle = 1.57079632679489661923, wall_distance = 16.0;
+enum { SIDE = NOOK_EYE_SIDE, PIXELS = NOOK_EYE_PIXELS };
+static const double wall_distance = 16.0;
 
-/* A camera's picture, with the arrays that a nook_seen borrows. */
-typedef struct eye {
-    float distances[PIXELS], normals[3 * PIXELS], visibility[PIXELS];
-    nook_seen seen;
-} eye;
-
-static void show(eye *e, int x, int y, double distance, const double normal[3])
-{
-    int i = y * SIDE + x;
-    e->distances[i] = (float)distance;
-    for (int k = 0; k < 3; k++)
-        e->normals[3 * i + k] = (float)normal[k];
-}
-
-static const double towards[3] = { 0.0, 0.0, 1.0 };
-
-static void set_visibility(eye *e, float value)
+static void set_visibility(nook_eye *e, float value)
 {
     for (int i = 0; i < PIXELS; i++)
         e->visibility[i] = value;
 }
 
 /* Looks along -Z at the wall z = -16 from (x, y, z). */
-static void face_wall(eye *e, double x, double y, double z)
+static void face_wall(nook_eye *e, double x, double y, double z)
 {
-    for (int i = 0; i < PIXELS; i++)
-        show(e, i % SIDE, i / SIDE, wall_distance + z, towards);
+    nook_eye_face_wall(e, x, y, z, wall_distance + z);
     set_visibility(e, 1.0f);
-    e->seen = (nook_seen){ .view_from_world = nook_matrix_translation(-x, -y, -z),
-                           .fov_y_radians = right_angle,
-                           .width = SIDE,
-                           .height = SIDE,
-                           .distances = e->distances,
-                           .normals = e->normals };
 }
 
-static nook_match match(const eye *first, const eye *second)
+static nook_match match(const nook_eye *first, const nook_eye *second)
 {
     nook_match result;
     assert_int_equal(nook_match_create(&first->seen, &second->seen, &result), NOOK_OK);
     return result;
 }
 
-static nook_instability measure(const eye *first, const eye *second)
+static nook_instability measure(const nook_eye *first, const nook_eye *second)
 {
     nook_match matched = match(first, second);
     nook_instability result = nook_instability_measure(&matched, first->visibility, second->visibility);
@@ -77,7 +55,7 @@ static unsigned next_random(unsigned *seed)
 static void test_a_camera_matched_with_itself_is_perfectly_steady(void **state)
 {
     (void)state;
-    static eye e;
+    static nook_eye e;
     unsigned seed = 20100712u;
     double eye_at[3] = { 3.7, -2.1, 9.3 }, target[3] = { 0.3, 1.9, -4.0 }, up[3] = { 0.0, 1.0, 0.0 };
     face_wall(&e, 0.0, 0.0, 0.0);
@@ -95,7 +73,7 @@ static void test_a_camera_matched_with_itself_is_perfectly_steady(void **state)
 static void test_constant_change_is_the_instability(void **state)
 {
     (void)state;
-    static eye first, second;
+    static nook_eye first, second;
     face_wall(&first, 0.0, 0.0, 0.0);
     face_wall(&second, 3.3, 0.0, 0.0);
     set_visibility(&first, 0.75f);
@@ -108,7 +86,7 @@ static void test_constant_change_is_the_instability(void **state)
 }
 
 /* Visibility painted on the wall: linear, so that reading between pixels is exact. */
-static void paint(eye *e, double eye_x, double eye_y, double eye_z)
+static void paint(nook_eye *e, double eye_x, double eye_y, double eye_z)
 {
     double size = (wall_distance + eye_z) / wall_distance;
     for (int i = 0; i < PIXELS; i++) {
@@ -120,7 +98,7 @@ static void paint(eye *e, double eye_x, double eye_y, double eye_z)
 static void test_pattern_fixed_to_the_surface_is_steady(void **state)
 {
     (void)state;
-    static eye first, second;
+    static nook_eye first, second;
     static const double places[][3] = { { 5.0, 0.0, 0.0 }, { 2.25, -3.5, 0.0 }, { 0.0, 0.0, 4.0 }, { 1.3, 2.7, -5.9 } };
     face_wall(&first, 0.0, 0.0, 0.0);
     paint(&first, 0.0, 0.0, 0.0);
@@ -138,7 +116,7 @@ static void test_pattern_fixed_to_the_surface_is_steady(void **state)
 static void test_pattern_fixed_to_the_picture_changes_by_its_slope_times_the_shift(void **state)
 {
     (void)state;
-    static eye first, second;
+    static nook_eye first, second;
     face_wall(&first, 0.0, 0.0, 0.0);
     face_wall(&second, 6.0, 0.0, 0.0); /* six pixels */
     for (int i = 0; i < PIXELS; i++)
@@ -151,7 +129,7 @@ static void test_pattern_fixed_to_the_picture_changes_by_its_slope_times_the_shi
 static void test_pictures_of_unrelated_noise_are_fully_unsteady_however_faint(void **state)
 {
     (void)state;
-    static eye first, second;
+    static nook_eye first, second;
     unsigned seed = 7u;
     face_wall(&first, 0.0, 0.0, 0.0);
     face_wall(&second, 2.0, 0.0, 0.0);
@@ -168,14 +146,14 @@ static void test_pictures_of_unrelated_noise_are_fully_unsteady_however_faint(vo
 static void test_what_a_nearer_object_hides_is_not_counted(void **state)
 {
     (void)state;
-    static eye first, second;
+    static nook_eye first, second;
     face_wall(&first, 0.0, 0.0, 0.0);
     face_wall(&second, 4.0, 0.0, 0.0);
     set_visibility(&first, 0.5f);
     set_visibility(&second, 0.5f);
     for (int y = 0; y < SIDE; y++) {
         for (int x = 10; x < 20; x++) {
-            show(&second, x, y, 8.0, towards);
+            nook_eye_show(&second, x, y, 8.0, nook_eye_towards);
             second.visibility[y * SIDE + x] = 0.0f;
         }
     }
@@ -190,11 +168,11 @@ static void test_what_a_nearer_object_hides_is_not_counted(void **state)
 static void test_reading_between_pixels_never_mixes_in_another_surface(void **state)
 {
     (void)state;
-    static eye first, second;
+    static nook_eye first, second;
     face_wall(&first, 0.0, 0.0, 0.0);
     face_wall(&second, 0.5, 0.0, 0.0); /* every point lies between two columns */
     for (int y = 0; y < SIDE; y++) {
-        show(&second, 12, y, 4.0, towards);
+        nook_eye_show(&second, 12, y, 4.0, nook_eye_towards);
         second.visibility[y * SIDE + 12] = 0.0f;
     }
     nook_instability r = measure(&first, &second);
@@ -205,18 +183,18 @@ static void test_reading_between_pixels_never_mixes_in_another_surface(void **st
 static void test_surfaces_that_face_elsewhere_are_others(void **state)
 {
     (void)state;
-    static eye first, second;
+    static nook_eye first, second;
     static const struct {
         double degrees;
         uint64_t pixels;
     } cases[] = { { 0.0, PIXELS }, { 25.0, PIXELS }, { 27.0, 0 }, { 90.0, 0 }, { 180.0, 0 } };
     face_wall(&first, 0.0, 0.0, 0.0);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        double angle = cases[i].degrees / 90.0 * right_angle;
+        double angle = cases[i].degrees / 90.0 * nook_eye_fov;
         const double normal[3] = { sin(angle), 0.0, cos(angle) };
         face_wall(&second, 0.0, 0.0, 0.0);
         for (int p = 0; p < PIXELS; p++)
-            show(&second, p % SIDE, p / SIDE, wall_distance, normal);
+            nook_eye_show(&second, p % SIDE, p / SIDE, wall_distance, normal);
         assert_int_equal(measure(&first, &second).pixels, cases[i].pixels);
     }
 }
@@ -224,7 +202,7 @@ static void test_surfaces_that_face_elsewhere_are_others(void **state)
 static void test_tolerance_of_depth_is_a_footprint_and_grows_with_the_distance(void **state)
 {
     (void)state;
-    static eye first, second;
+    static nook_eye first, second;
     static const struct {
         double scale, offset; /* of the scene; metres behind the wall */
         uint64_t pixels;
@@ -243,7 +221,7 @@ static void test_tolerance_of_depth_is_a_footprint_and_grows_with_the_distance(v
 static void test_wall_seen_from_the_side_matches_along_its_plane(void **state)
 {
     (void)state;
-    static eye first, second;
+    static nook_eye first, second;
     double eye_at[3] = { 12.0, 0.0, -4.0 }, target[3] = { 0.0, 0.0, -16.0 }, up[3] = { 0.0, 1.0, 0.0 };
     face_wall(&first, 0.0, 0.0, 0.0);
     face_wall(&second, 0.0, 0.0, 0.0);
@@ -266,7 +244,7 @@ static void test_wall_seen_from_the_side_matches_along_its_plane(void **state)
 static void test_nothing_shared_is_said_and_is_no_number(void **state)
 {
     (void)state;
-    static eye first, second;
+    static nook_eye first, second;
     double eye_at[3] = { 0.0, 0.0, 0.0 }, behind[3] = { 0.0, 0.0, 1.0 }, up[3] = { 0.0, 1.0, 0.0 };
     face_wall(&first, 0.0, 0.0, 0.0);
     face_wall(&second, 0.0, 0.0, 0.0);
@@ -284,7 +262,7 @@ static void test_nothing_shared_is_said_and_is_no_number(void **state)
 static void test_pixels_without_geometry_are_not_shared(void **state)
 {
     (void)state;
-    static eye first, second;
+    static nook_eye first, second;
     face_wall(&first, 0.0, 0.0, 0.0);
     face_wall(&second, 0.0, 0.0, 0.0);
     for (int i = 0; i < 100; i++)
@@ -304,7 +282,7 @@ static void test_pixels_without_geometry_are_not_shared(void **state)
 static void test_values_that_are_not_finite_make_the_result_invalid(void **state)
 {
     (void)state;
-    static eye first, second;
+    static nook_eye first, second;
     face_wall(&first, 0.0, 0.0, 0.0);
     face_wall(&second, 0.5, 0.0, 0.0);
     second.visibility[5 * SIDE + 5] = NAN; /* read by two columns of the first */
@@ -318,7 +296,7 @@ static void test_values_that_are_not_finite_make_the_result_invalid(void **state
 static void test_constant_pictures_have_no_relative_instability(void **state)
 {
     (void)state;
-    static eye first, second;
+    static nook_eye first, second;
     face_wall(&first, 0.0, 0.0, 0.0);
     face_wall(&second, 1.0, 0.0, 0.0);
     nook_instability r = measure(&first, &second);

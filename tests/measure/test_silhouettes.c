@@ -1,4 +1,5 @@
 #include "modules/measure/silhouettes.h"
+#include "tests/support/eye.h"
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -8,46 +9,20 @@
 
 #include <cmocka.h>
 
-enum { SIDE = 32, PIXELS = SIDE * SIDE };
-static const double right_angle = 1.57079632679489661923;
+enum { SIDE = NOOK_EYE_SIDE, PIXELS = NOOK_EYE_PIXELS };
 
-/* A picture of one camera, with the arrays that a nook_seen borrows. */
-typedef struct eye {
-    float distances[PIXELS], normals[3 * PIXELS];
-    uint8_t marks[PIXELS];
-    nook_seen seen;
-} eye;
-
-static void show(eye *e, int x, int y, double distance, const double normal[3])
+static void face_wall(nook_eye *e, double distance)
 {
-    int i = y * SIDE + x;
-    e->distances[i] = (float)distance;
-    for (int k = 0; k < 3; k++)
-        e->normals[3 * i + k] = (float)normal[k];
+    nook_eye_face_wall(e, 0.0, 0.0, 0.0, distance);
 }
 
-static const double towards[3] = { 0.0, 0.0, 1.0 };
-
-/* A wall that faces the camera fills the picture. */
-static void face_wall(eye *e, double distance)
-{
-    for (int i = 0; i < PIXELS; i++)
-        show(e, i % SIDE, i / SIDE, distance, towards);
-    e->seen = (nook_seen){ .view_from_world = nook_matrix_identity(),
-                           .fov_y_radians = right_angle,
-                           .width = SIDE,
-                           .height = SIDE,
-                           .distances = e->distances,
-                           .normals = e->normals };
-}
-
-static void mark(eye *e)
+static void mark(nook_eye *e)
 {
     memset(e->marks, 255, sizeof e->marks);
     assert_int_equal(nook_silhouettes_mark(&e->seen, e->marks), NOOK_OK);
 }
 
-static int count_of(const eye *e, uint8_t side)
+static int count_of(const nook_eye *e, uint8_t side)
 {
     uint8_t mask[PIXELS];
     int count = 0;
@@ -60,7 +35,7 @@ static int count_of(const eye *e, uint8_t side)
 static void test_a_wall_that_fills_the_picture_has_no_silhouette(void **state)
 {
     (void)state;
-    static eye e;
+    static nook_eye e;
     face_wall(&e, 10.0);
     mark(&e);
     assert_int_equal(count_of(&e, NOOK_SILHOUETTE_AWAY), PIXELS);
@@ -69,12 +44,12 @@ static void test_a_wall_that_fills_the_picture_has_no_silhouette(void **state)
 static void test_both_sides_of_a_step_reach_as_far_as_is_stated(void **state)
 {
     (void)state;
-    static eye e;
+    static nook_eye e;
     enum { EDGE = 13 };
     face_wall(&e, 10.0);
     for (int i = 0; i < PIXELS; i++) {
         if (i % SIDE < EDGE)
-            show(&e, i % SIDE, i / SIDE, 5.0, towards);
+            nook_eye_show(&e, i % SIDE, i / SIDE, 5.0, nook_eye_towards);
     }
     mark(&e);
     for (int i = 0; i < PIXELS; i++) { /* the first column of each side stands beside the silhouette itself */
@@ -89,9 +64,9 @@ static void test_both_sides_of_a_step_reach_as_far_as_is_stated(void **state)
 static void test_reach_is_round(void **state)
 {
     (void)state;
-    static eye e;
+    static nook_eye e;
     face_wall(&e, 10.0);
-    show(&e, 16, 16, 5.0, towards);
+    nook_eye_show(&e, 16, 16, 5.0, nook_eye_towards);
     mark(&e);
     assert_int_equal(e.marks[16 * SIDE + 16], NOOK_SILHOUETTE_INSIDE);
     for (int i = 0; i < PIXELS; i++) { /* the four around the dot are the silhouette's far side */
@@ -110,11 +85,11 @@ static void test_reach_is_round(void **state)
 static void test_an_object_before_nothing_has_an_inside_only(void **state)
 {
     (void)state;
-    static eye e;
+    static nook_eye e;
     face_wall(&e, 0.0);
     for (int y = 8; y < 24; y++) {
         for (int x = 8; x < 24; x++)
-            show(&e, x, y, 5.0, towards);
+            nook_eye_show(&e, x, y, 5.0, nook_eye_towards);
     }
     mark(&e);
     int away = 16 - 2 * (NOOK_SILHOUETTE_PIXELS + 1);
@@ -128,13 +103,13 @@ static void test_an_object_before_nothing_has_an_inside_only(void **state)
 static void test_a_slanted_floor_and_its_corner_with_a_wall_are_no_silhouette(void **state)
 {
     (void)state;
-    static eye e;
+    static nook_eye e;
     const double up[3] = { 0.0, 1.0, 0.0 };
     face_wall(&e, 30.0);
     for (int i = 0; i < PIXELS; i++) {
         double slope = (0.5 * SIDE - (i / SIDE + 0.5)) / (0.5 * SIDE), distance = 1.5 / slope;
         if (slope > 0.0 && distance < 30.0)
-            show(&e, i % SIDE, i / SIDE, distance, up);
+            nook_eye_show(&e, i % SIDE, i / SIDE, distance, up);
     }
     mark(&e);
     assert_int_equal(count_of(&e, NOOK_SILHOUETTE_AWAY), PIXELS);
@@ -143,7 +118,7 @@ static void test_a_slanted_floor_and_its_corner_with_a_wall_are_no_silhouette(vo
 static void test_normals_are_in_world_space_and_the_camera_stands_anywhere(void **state)
 {
     (void)state;
-    static eye straight, turned;
+    static nook_eye straight, turned;
     const double eye_at[3] = { 7.0, -3.0, 11.0 }, target[3] = { -2.0, 1.0, 5.0 }, up[3] = { 0.0, 1.0, 0.0 };
     nook_matrix view_from_world = nook_matrix_look_at(eye_at, target, up), world_from_view;
     assert_true(nook_matrix_inverse_affine(&view_from_world, &world_from_view));
@@ -154,13 +129,13 @@ static void test_normals_are_in_world_space_and_the_camera_stands_anywhere(void 
         double slope = (0.5 * SIDE - (i / SIDE + 0.5)) / (0.5 * SIDE), normal[3] = { 0.0, 1.0, 0.0 };
         bool floor_there = slope > 0.0 && 1.5 / slope < 30.0;
         if (i % SIDE == 20) /* a post before both */
-            show(&straight, i % SIDE, i / SIDE, 0.7, towards);
+            nook_eye_show(&straight, i % SIDE, i / SIDE, 0.7, nook_eye_towards);
         else if (floor_there)
-            show(&straight, i % SIDE, i / SIDE, 1.5 / slope, normal);
+            nook_eye_show(&straight, i % SIDE, i / SIDE, 1.5 / slope, normal);
         for (int k = 0; k < 3; k++)
             normal[k] = (double)straight.normals[3 * i + k];
         nook_matrix_apply_vector(&world_from_view, normal, normal);
-        show(&turned, i % SIDE, i / SIDE, (double)straight.distances[i], normal);
+        nook_eye_show(&turned, i % SIDE, i / SIDE, (double)straight.distances[i], normal);
     }
     mark(&straight);
     mark(&turned);

@@ -209,3 +209,14 @@ void nook_results_fixture_make(const nook_results_fixture *fixture, nook_results
     }
     *out_results = results;
 }
+
+nook_results nook_results_fixture_numbers(const char *const *scenes, uint32_t scene_count, uint32_t cameras,
+                                          uint32_t settings)
+{
+    nook_results results;
+    const nook_results_fixture fixture = {
+        .scenes = scenes, .scene_count = scene_count, .cameras = cameras, .settings = settings, .width = 8, .height = 8
+    };
+    nook_results_fixture_make(&fixture, &results);
+    return results;
+}

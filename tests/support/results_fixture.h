@@ -21,5 +21,9 @@ typedef struct nook_results_fixture {
  */
 void nook_results_fixture_make(const nook_results_fixture *fixture, nook_results *out_results);
 
+/** The same without pictures, of sites of 8 x 8 pixels. */
+nook_results nook_results_fixture_numbers(const char *const *scenes, uint32_t scene_count, uint32_t cameras,
+                                          uint32_t settings);
+
 /** Visibility of a made-up picture at a pixel, top row first. Settings add to the truth, which is setting 0. */
 double nook_results_fixture_visibility(uint32_t camera, uint32_t setting, double x, double y);
