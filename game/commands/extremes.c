@@ -115,7 +115,7 @@ int nook_command_extremes(const nook_app *app, int argc, char **argv)
         return exit_code;
     if (nook_extreme_count(settings.only) == 0) {
         fprintf(stderr, "nook: extremes: no case's name holds \"%s\"; --list names them\n", settings.only);
-        return NOOK_EXIT_FAILED;
+        return NOOK_EXIT_USAGE;
     }
     if (settings.list) {
         nook_extreme_print_list(stdout, settings.only);

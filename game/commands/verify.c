@@ -118,6 +118,6 @@ int nook_command_verify(const nook_app *app, int argc, char **argv)
     char fixtures[1024];
     if (nook_verify_choose_techniques(settings.techniques, &request.desc) != NOOK_OK ||
         nook_verify_choose_fixtures(settings.fixtures, &request.desc, fixtures, sizeof fixtures) != NOOK_OK)
-        return NOOK_EXIT_FAILED;
+        return NOOK_EXIT_USAGE;
     return nook_findings_with_device(app, settings.backend, run_on, &request);
 }

@@ -42,7 +42,7 @@ test_json_is_printed_and_written_with_why_and_limit() {
 
 test_text_that_no_case_holds_is_refused_in_one_line() {
     local line
-    line=$(assert_fails 1 extremes --only nowhere)
+    line=$(assert_fails 2 extremes --only nowhere)
     assert_holds "$line" 'no case'
     [ "$(wc -l <<<"$line")" -eq 1 ]
 }

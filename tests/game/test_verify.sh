@@ -61,10 +61,10 @@ test_json_is_all_that_is_printed_and_equals_the_file() {
 
 test_wrong_names_are_refused_in_one_line() {
     local said
-    said=$(assert_fails 1 verify --fixtures nonsense)
+    said=$(assert_fails 2 verify --fixtures nonsense)
     assert_holds "$said" "there is no 'nonsense'"
     [ "$(wc -l <<<"$said")" -eq 1 ]
-    said=$(assert_fails 1 verify --techniques hbaoo)
+    said=$(assert_fails 2 verify --techniques hbaoo)
     assert_holds "$said" 'hbao'
     said=$(assert_fails 2 verify --rays 0)
     assert_holds "$said" '--rays'
