@@ -21,14 +21,17 @@ static nook_result check_size(const nook_stage_desc *desc)
     return NOOK_OK;
 }
 
-static nook_result load_scene(nook_stage *stage, const char *path)
+static nook_result load_scene(nook_stage *stage, const nook_stage_desc *desc)
 {
-    nook_result result = nook_scene_load(path, NULL, &stage->scene);
+    nook_result result = NOOK_OK;
+    stage->scene = desc->scene;
+    if (!stage->scene)
+        result = nook_scene_load(desc->scene_path, NULL, &stage->scene);
     if (result != NOOK_OK)
         return result;
     if (stage->scene->triangle_count == 0)
-        return nook_fail(NOOK_E_FORMAT, "%s: holds no triangles, so there is nothing to draw", path);
-    return NOOK_OK;
+        return nook_fail(NOOK_E_FORMAT, "%s: holds no triangles, so there is nothing to draw", stage->scene->path);
+    return nook_game_world_create(stage->scene, &stage->world);
 }
 
 static nook_result open_devices(nook_stage *stage, const nook_stage_desc *desc)
@@ -102,9 +105,9 @@ static nook_result open_ao(nook_stage *stage)
 nook_result nook_stage_open(const nook_stage_desc *desc, nook_stage *out_stage)
 {
     *out_stage = (nook_stage){ .width = desc->width, .height = desc->height };
-    nook_result result = check_size(desc);
+    nook_result result = load_scene(out_stage, desc);
     if (result == NOOK_OK)
-        result = load_scene(out_stage, desc->scene_path);
+        result = check_size(desc);
     if (result == NOOK_OK)
         result = open_devices(out_stage, desc);
     if (result == NOOK_OK)
@@ -116,8 +119,14 @@ nook_result nook_stage_open(const nook_stage_desc *desc, nook_stage *out_stage)
 
 nook_result nook_stage_fill(nook_stage *stage, const nook_game_world_desc *desc)
 {
-    nook_game_world_destroy(stage->world, stage->ao);
-    nook_result result = nook_game_world_create(stage->scene, stage->ao, desc, &stage->world);
+    nook_result result = NOOK_OK;
+    if (stage->filled) {
+        nook_game_world_destroy(stage->world);
+        result = nook_game_world_create(stage->scene, &stage->world);
+    }
+    if (result == NOOK_OK)
+        result = nook_game_world_bake(stage->world, stage->ao, desc);
+    stage->filled = result == NOOK_OK;
     if (result != NOOK_OK || stage->renderer)
         return result;
     stage->lights = nook_lights_from_scene(stage->scene);
@@ -129,7 +138,7 @@ void nook_stage_close(nook_stage *stage)
 {
     nook_renderer_destroy(stage->renderer);
     nook_render_scene_destroy(stage->render_scene);
-    nook_game_world_destroy(stage->world, stage->ao);
+    nook_game_world_destroy(stage->world);
     nook_ao_destroy(stage->ao);
     nook_gpu_destroy(stage->gpu);
     nook_context_destroy(stage->context);

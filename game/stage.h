@@ -10,8 +10,9 @@
 #include "modules/ao/nook_ao.h"
 
 typedef struct nook_stage_desc {
-    const char *root; /**< The folder that holds shaders/. */
-    const char *scene_path;
+    const char *root;       /**< The folder that holds shaders/. */
+    const char *scene_path; /**< Loaded, unless there is a scene. */
+    nook_scene *scene;      /**< Taken over, also on failure. NULL: load scene_path. */
     nook_backend backend;
     bool want_window;       /**< Where there is a display. */
     uint32_t width, height; /**< Of the pictures, pixels. */
@@ -23,13 +24,14 @@ typedef struct nook_stage {
     nook_scene *scene;
     nook_context *context;
     nook_gpu *gpu;
-    nook_ao *ao; /**< With every technique. */
-    nook_game_world *world;
+    nook_ao *ao;            /**< With every technique. */
+    nook_game_world *world; /**< Its entities stand from opening on; what they darken comes with filling. */
     nook_render_scene *render_scene;
     nook_renderer *renderer;
     nook_lights lights;
-    nook_frame frame;        /**< The last one begun. */
-    bool shows;              /**< There is a window, and it is wanted. */
+    nook_frame frame; /**< The last one begun. */
+    bool shows;       /**< There is a window, and it is wanted. */
+    bool filled;
     bool stop_asked;         /**< Esc or the close button while nook_stage_show looked. */
     uint32_t frame_index;    /**< Yours to set: seeds the noise of nook_stage_occlude. */
     nook_progress *progress; /**< Yours to set: told how far a long record is. NULL: nobody. */
@@ -43,8 +45,8 @@ typedef struct nook_stage {
 nook_result nook_stage_open(const nook_stage_desc *desc, nook_stage *out_stage);
 
 /**
- * Bakes the volumes and uploads everything: the long part. Again with another description it replaces the volumes only; begin
- * a frame after it.
+ * Bakes the volumes and uploads everything: the long part. Again with another description it makes the world anew
+ * with other volumes; begin a frame after it.
  * @return why not; close the stage then
  */
 nook_result nook_stage_fill(nook_stage *stage, const nook_game_world_desc *desc);

@@ -3,12 +3,16 @@
 #include "game/draw_list.h"
 #include "game/progress.h"
 #include "game/volumes.h"
+#include <assert.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 struct nook_game_world {
+    const nook_scene *scene;
+    nook_ao *ao; /* NULL until volumes are baked */
     nook_world *entities;
+    nook_entity *of_node; /* scene->node_count of them */
     nook_components components;
     nook_draw *draws;
     nook_ao_occluder *occluders;
@@ -83,24 +87,24 @@ static nook_result make_body(nook_game_world *world, const nook_matrix *world_fr
     return result == NOOK_OK ? add_transform(world, *out_entity, world_from_local) : result;
 }
 
-/* One entity for each node with a mesh. @param of_node  scene->node_count of them */
-static nook_result make_nodes(nook_game_world *world, const nook_scene *scene, nook_entity *of_node)
+/* One entity for each node with a mesh. */
+static nook_result make_nodes(nook_game_world *world)
 {
-    for (uint32_t i = 0; i < scene->node_count; i++) {
-        const nook_node *node = &scene->nodes[i];
+    for (uint32_t i = 0; i < world->scene->node_count; i++) {
+        const nook_node *node = &world->scene->nodes[i];
         if (node->mesh == NOOK_NONE)
             continue;
-        nook_result result = make_body(world, &node->world_from_local, node->moving, &of_node[i]);
+        nook_result result = make_body(world, &node->world_from_local, node->moving, &world->of_node[i]);
         const nook_renderable renderable = { node->mesh, i };
         if (result == NOOK_OK)
-            result = nook_entity_add(world->entities, of_node[i], world->components.renderable, &renderable);
+            result = nook_entity_add(world->entities, world->of_node[i], world->components.renderable, &renderable);
         if (result != NOOK_OK)
             return result;
     }
     return NOOK_OK;
 }
 
-static nook_result make_occluders(nook_game_world *world, const nook_scene_volumes *baked, const nook_entity *of_node)
+static nook_result make_occluders(nook_game_world *world, const nook_scene_volumes *baked)
 {
     for (uint32_t i = 0; i < baked->occluder_count; i++) {
         const nook_scene_occluder *occluder = &baked->occluders[i];
@@ -109,7 +113,7 @@ static nook_result make_occluders(nook_game_world *world, const nook_scene_volum
         if (occluder->node == NOOK_NONE)
             result = make_body(world, &occluder->world_from_mesh, false, &entity);
         else
-            entity = of_node[occluder->node];
+            entity = world->of_node[occluder->node];
         if (result == NOOK_OK)
             result = nook_entity_add(world->entities, entity, world->components.volume_occluder,
                                      &world->uploaded[occluder->volume]);
@@ -119,84 +123,104 @@ static nook_result make_occluders(nook_game_world *world, const nook_scene_volum
     return NOOK_OK;
 }
 
-static nook_result fill(nook_game_world *world, const nook_scene *scene, nook_ao *ao, nook_scene_volumes *baked)
+static nook_result fill(nook_game_world *world, nook_scene_volumes *baked)
 {
-    nook_entity *of_node = calloc(scene->node_count + 1, sizeof *of_node);
     world->volumes = calloc(baked->volume_count + 1, sizeof *world->volumes);
     world->uploaded = calloc(baked->volume_count + 1, sizeof *world->uploaded);
-    world->volume_count = world->volumes && world->uploaded ? baked->volume_count : 0;
+    world->occluders = calloc(baked->occluder_count + 1, sizeof *world->occluders);
+    if (!world->volumes || !world->uploaded || !world->occluders)
+        return nook_fail(NOOK_E_MEMORY, "%s: no memory for its volumes", world->scene->path);
+    world->volume_count = baked->volume_count;
     nook_result result = NOOK_OK;
-    if (!of_node || !world->volumes || !world->uploaded)
-        result = nook_fail(NOOK_E_MEMORY, "%s: no memory for its entities", scene->path);
     for (uint32_t i = 0; i < baked->volume_count && result == NOOK_OK; i++) {
         describe_volume(&baked->volumes[i], &world->volumes[i]);
-        result = upload(ao, &baked->volumes[i], &world->uploaded[i]);
+        result = upload(world->ao, &baked->volumes[i], &world->uploaded[i]);
         nook_scene_volume_release(&baked->volumes[i]); /* the AO has its own copy; two of all are much memory */
     }
     if (result == NOOK_OK)
-        result = make_nodes(world, scene, of_node);
+        result = make_occluders(world, baked);
     if (result == NOOK_OK)
-        result = make_occluders(world, baked, of_node);
-    free(of_node);
+        result = nook_occluders_set_up(world->entities, world->occluders, baked->occluder_count);
     return result;
 }
 
-/* The ECS world with its components, systems, and the lists that these fill. */
-static nook_result set_up(nook_game_world *world, const nook_scene *scene, uint32_t occluder_count)
+/* The ECS world with its components, and what is drawn of it. */
+static nook_result set_up(nook_game_world *world)
 {
+    uint32_t count = world->scene->node_count;
     nook_result result = nook_world_create(NULL, &world->entities);
     if (result != NOOK_OK)
         return result;
-    world->draws = calloc(scene->node_count + 1, sizeof *world->draws);
-    world->occluders = calloc(occluder_count + 1, sizeof *world->occluders);
-    if (!world->draws || !world->occluders)
-        return nook_fail(NOOK_E_MEMORY, "%s: no memory for its lists of a frame", scene->path);
+    world->draws = calloc(count + 1, sizeof *world->draws);
+    world->of_node = calloc(count + 1, sizeof *world->of_node);
+    if (!world->draws || !world->of_node)
+        return nook_fail(NOOK_E_MEMORY, "%s: no memory for its entities", world->scene->path);
     result = nook_components_register(world->entities, &world->components);
     if (result == NOOK_OK)
-        result = nook_draw_list_set_up(world->entities, world->draws, scene->node_count);
-    if (result == NOOK_OK)
-        result = nook_occluders_set_up(world->entities, world->occluders, occluder_count);
-    return result;
+        result = nook_draw_list_set_up(world->entities, world->draws, count);
+    return result == NOOK_OK ? make_nodes(world) : result;
 }
 
-nook_result nook_game_world_create(const nook_scene *scene, nook_ao *ao, const nook_game_world_desc *desc,
-                                   nook_game_world **out_world)
+nook_result nook_game_world_create(const nook_scene *scene, nook_game_world **out_world)
 {
     *out_world = NULL;
-    nook_scene_volumes baked = { 0 };
-    nook_result result = bake(scene, desc, &baked);
-    if (result != NOOK_OK)
-        return result;
     nook_game_world *world = calloc(1, sizeof *world);
-    if (world)
-        result = set_up(world, scene, baked.occluder_count);
-    else
-        result = nook_fail(NOOK_E_MEMORY, "%s: no memory for its world", scene->path);
-    if (result == NOOK_OK)
-        result = fill(world, scene, ao, &baked);
-    nook_volumes_free(&baked);
+    if (!world)
+        return nook_fail(NOOK_E_MEMORY, "%s: no memory for its world", scene->path);
+    world->scene = scene;
+    nook_result result = set_up(world);
     if (result != NOOK_OK) {
-        nook_game_world_destroy(world, ao);
+        nook_game_world_destroy(world);
         return result;
     }
     *out_world = world;
     return NOOK_OK;
 }
 
-void nook_game_world_destroy(nook_game_world *world, nook_ao *ao)
+nook_result nook_game_world_bake(nook_game_world *world, nook_ao *ao, const nook_game_world_desc *desc)
+{
+    assert(!world->ao);
+    nook_scene_volumes baked = { 0 };
+    nook_result result = bake(world->scene, desc, &baked);
+    if (result != NOOK_OK)
+        return result;
+    world->ao = ao;
+    result = fill(world, &baked);
+    nook_volumes_free(&baked);
+    return result;
+}
+
+void nook_game_world_destroy(nook_game_world *world)
 {
     if (!world)
         return;
     for (uint32_t i = 0; i < world->volume_count; i++) { /* those that were not reached have no ids */
-        nook_ao_remove_volume(ao, world->uploaded[i].volume);
-        nook_ao_remove_mesh(ao, world->uploaded[i].mesh);
+        nook_ao_remove_volume(world->ao, world->uploaded[i].volume);
+        nook_ao_remove_mesh(world->ao, world->uploaded[i].mesh);
     }
     nook_world_destroy(world->entities);
+    free(world->of_node);
     free(world->draws);
     free(world->occluders);
     free(world->volumes);
     free(world->uploaded);
     free(world);
+}
+
+nook_world *nook_game_world_entities(nook_game_world *world)
+{
+    return world->entities;
+}
+
+const nook_components *nook_game_world_components(const nook_game_world *world)
+{
+    return &world->components;
+}
+
+nook_entity nook_game_world_entity_of_node(const nook_game_world *world, uint32_t node)
+{
+    assert(node < world->scene->node_count);
+    return world->of_node[node];
 }
 
 nook_result nook_game_world_update(nook_game_world *world, nook_ao *ao)
@@ -208,6 +232,8 @@ nook_result nook_game_world_update(nook_game_world *world, nook_ao *ao)
         return result;
     const nook_type type = NOOK_TYPE(nook_occluder_list);
     const nook_occluder_list *list = nook_world_resource(world->entities, &type);
+    if (!list)
+        return nook_ao_submit_occluders(ao, NULL, 0); /* nothing was baked */
     if (list->dropped > 0)
         return nook_fail(NOOK_E_MEMORY, "%u bodies more than the %u that the scene came with: no room for them",
                          list->dropped, list->capacity);

@@ -31,14 +31,26 @@ typedef struct nook_world_volume {
 } nook_world_volume;
 
 /**
- * Bakes or reads the volumes (with progress on standard error), uploads them with their triangles, and makes the entities.
- * @param scene, ao  outlive the world
+ * Makes the entities of a scene's nodes. Nothing darkens yet.
+ * @param scene  outlives the world
  * @return why not; *out_world is NULL then
  */
-nook_result nook_game_world_create(const nook_scene *scene, nook_ao *ao, const nook_game_world_desc *desc,
-                                   nook_game_world **out_world);
-/** NULL is allowed. Takes its volumes and triangles out of the AO as well. */
-void nook_game_world_destroy(nook_game_world *world, nook_ao *ao);
+nook_result nook_game_world_create(const nook_scene *scene, nook_game_world **out_world);
+/**
+ * Bakes or reads the volumes (with progress on standard error), uploads them with their triangles, and gives the entities
+ * their occluders. Once in the life of a world.
+ * @param ao  outlives the world
+ * @return why not; destroy the world then
+ */
+nook_result nook_game_world_bake(nook_game_world *world, nook_ao *ao, const nook_game_world_desc *desc);
+/** NULL is allowed. Takes its volumes and triangles out of the AO that they were baked for. */
+void nook_game_world_destroy(nook_game_world *world);
+
+/** For those who give its entities more components. */
+nook_world *nook_game_world_entities(nook_game_world *world);
+const nook_components *nook_game_world_components(const nook_game_world *world);
+/** The entity of a node, by its place in scene->nodes; {0} for a node without a mesh. */
+nook_entity nook_game_world_entity_of_node(const nook_game_world *world, uint32_t node);
 
 /** Runs one frame's systems and submits the occluders they collected. @return NOOK_E_MEMORY, NOOK_E_ARG */
 nook_result nook_game_world_update(nook_game_world *world, nook_ao *ao);

@@ -1,0 +1,59 @@
+/**
+ * session.h - a level being played: bodies, the player, and the rules. No GL, no files, no clock: input in, state out.
+ *
+ *   create -> every 1/60 s: tick -> every frame: place -> draw the world -> destroy
+ *
+ * The session owns the physics and works on the entities of a game world (game/world.h), to which it adds its components;
+ * everything that darkens, is drawn and moves is one entity there. Same level, seed and inputs: same state, bit for bit.
+ */
+#pragma once
+#include "engine/physics/physics.h"
+#include "engine/render/renderer.h"
+#include "game/level/level.h"
+#include "game/play/play_input.h"
+#include "game/world.h"
+
+typedef struct nook_session nook_session;
+
+typedef struct nook_session_desc {
+    const nook_level *level; /**< Outlives the session. */
+    const nook_scene *scene; /**< Made of the level by nook_level_scene_load; outlives it. */
+    nook_game_world *world;  /**< Of that scene; outlives it. */
+    uint32_t seed;           /**< Of the physics and of the bodies' first millimetre. */
+} nook_session_desc;
+
+typedef enum nook_session_status { NOOK_SESSION_PLAYING, NOOK_SESSION_WON, NOOK_SESSION_LOST } nook_session_status;
+
+/** @return NOOK_E_NOT_FOUND a node or a need that does not exist (level:line); NOOK_E_ARG, NOOK_E_MEMORY; NULL then */
+nook_result nook_session_create(const nook_session_desc *desc, nook_session **out_session);
+void nook_session_destroy(nook_session *session); /**< NULL is allowed. */
+
+/** One step of NOOK_PHYSICS_STEP. After the end the world goes on, the rules do not. @return NOOK_E_RANGE, NOOK_E_MEMORY */
+nook_result nook_session_tick(nook_session *session, const nook_play_input *input);
+/** Writes every moving entity's nook_transform between the last two ticks. @param alpha [0, 1] */
+void nook_session_place(nook_session *session, double alpha);
+/** The player's eyes. @param fov_y_radians of the result */
+nook_camera nook_session_camera(const nook_session *session, double alpha, double fov_y_radians);
+
+/** For the screen, the log and tests. Texts belong to the session and hold until the next tick. */
+typedef struct nook_session_view {
+    nook_session_status status;
+    uint64_t ticks;        /**< Since the start of this try. */
+    double seconds_left;   /**< Of the level's; 0 when it has no end. */
+    uint32_t locks, open;  /**< Plates and shades, and how many of them hold. */
+    const char *message;   /**< What the player should know now; "": nothing. */
+    const char *looked_at; /**< Entity under the crosshair that can be taken; "": none. */
+    const char *carried;   /**< "": none. */
+    double feet[3];        /**< Of the player, metres. */
+    double yaw, pitch;     /**< Radians. */
+    bool grounded, crouched;
+} nook_session_view;
+nook_session_view nook_session_look(const nook_session *session);
+
+/** State of one of the level's plates, shades, movers, spinners, goals: 0 to 1. @return -1 no such entity */
+double nook_session_state_of(const nook_session *session, const char *entity);
+/** @return {0} when there is none */
+nook_body nook_session_body_of(const nook_session *session, const char *entity);
+nook_physics *nook_session_physics(nook_session *session);
+/** Of physics, player and rules. */
+uint64_t nook_session_hash(const nook_session *session);
