@@ -98,10 +98,12 @@ nook_gl_get_proc nook_context_get_proc(const nook_context *context)
 
 void nook_context_poll(nook_context *context, nook_input *out_input)
 {
-    if (context->poll)
+    if (context->poll) {
         context->poll(context, out_input);
-    else
+    } else {
         memset(out_input, 0, sizeof *out_input);
+        out_input->content_scale = 1.0;
+    }
 }
 
 void nook_context_present(nook_context *context)
@@ -114,6 +116,18 @@ void nook_context_show(nook_context *context)
 {
     if (context->show)
         context->show(context);
+}
+
+void nook_context_capture_mouse(nook_context *context, bool captured)
+{
+    if (context->capture_mouse)
+        context->capture_mouse(context, captured);
+}
+
+void nook_context_set_fullscreen(nook_context *context, bool fullscreen)
+{
+    if (context->set_fullscreen)
+        context->set_fullscreen(context, fullscreen);
 }
 
 void nook_context_set_title(nook_context *context, const char *title)

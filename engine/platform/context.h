@@ -84,18 +84,69 @@ typedef enum nook_key {
     NOOK_KEY_Z,
     NOOK_KEY_SHIFT,
     NOOK_KEY_CONTROL,
+    NOOK_KEY_ALT,
+    NOOK_KEY_ENTER,
+    NOOK_KEY_BACKSPACE,
+    NOOK_KEY_DELETE,
+    NOOK_KEY_HOME,
+    NOOK_KEY_END,
+    NOOK_KEY_PLUS, /**< Also "=" on the same key. */
+    NOOK_KEY_MINUS,
+    NOOK_KEY_F1,
+    NOOK_KEY_F2,
+    NOOK_KEY_F3,
+    NOOK_KEY_F4,
+    NOOK_KEY_F5,
+    NOOK_KEY_F6,
+    NOOK_KEY_F7,
+    NOOK_KEY_F8,
+    NOOK_KEY_F9,
+    NOOK_KEY_F10,
+    NOOK_KEY_F11,
+    NOOK_KEY_F12,
     NOOK_KEY_COUNT
 } nook_key;
 
+enum { NOOK_INPUT_TYPED_MAX = 16 };
+
+/** Buttons of a gamepad, by their place on the usual one. */
+typedef enum nook_pad_button {
+    NOOK_PAD_SOUTH, /**< A, cross. */
+    NOOK_PAD_EAST,
+    NOOK_PAD_WEST,
+    NOOK_PAD_NORTH,
+    NOOK_PAD_LEFT_BUMPER,
+    NOOK_PAD_RIGHT_BUMPER,
+    NOOK_PAD_BACK,
+    NOOK_PAD_START,
+    NOOK_PAD_LEFT_THUMB,
+    NOOK_PAD_RIGHT_THUMB,
+    NOOK_PAD_COUNT
+} nook_pad_button;
+
+/** The first gamepad that GLFW knows a mapping for. */
+typedef struct nook_gamepad {
+    bool present;
+    bool down[NOOK_PAD_COUNT];
+    bool pressed[NOOK_PAD_COUNT];       /**< Down now and not at the last poll. */
+    double left[2], right[2];           /**< Sticks, [-1, 1], + right and up; 0 within their dead zone of 0.15. */
+    double left_trigger, right_trigger; /**< [0, 1]. */
+} nook_gamepad;
+
 /** This frame's input; all zero without a window. */
 typedef struct nook_input {
-    bool down[NOOK_KEY_COUNT];    /**< Held now. */
-    bool pressed[NOOK_KEY_COUNT]; /**< Went down since the last poll, also when it was released again. */
-    double mouse_x, mouse_y;      /**< Pixels from the top left. */
-    double mouse_dx, mouse_dy;    /**< Pixels since the last poll. */
-    double scroll;                /**< Steps since the last poll, + away from the user. */
-    bool mouse_down[3];           /**< Left, right, middle. */
-    uint32_t width, height;       /**< Framebuffer, pixels; 0 while minimised. */
+    bool down[NOOK_KEY_COUNT];            /**< Held now. */
+    bool pressed[NOOK_KEY_COUNT];         /**< Went down since the last poll, also when it was released again. */
+    double mouse_x, mouse_y;              /**< Pixels from the top left. */
+    double mouse_dx, mouse_dy;            /**< Pixels since the last poll. */
+    double scroll;                        /**< Steps since the last poll, + away from the user. */
+    bool mouse_down[3];                   /**< Left, right, middle. */
+    bool mouse_pressed[3];                /**< Went down since the last poll. */
+    uint32_t typed[NOOK_INPUT_TYPED_MAX]; /**< Characters typed since the last poll, Unicode; 0 ends them. */
+    nook_gamepad pad;
+    bool focused;         /**< The window has the keyboard. */
+    double content_scale; /**< Of the display: 2 where letters should have twice as many pixels; 1 without a window. */
+    uint32_t width, height; /**< Framebuffer, pixels; 0 while minimised. */
     bool close_requested;
 } nook_input;
 
@@ -109,12 +160,16 @@ void nook_context_destroy(nook_context *context); /**< NULL is allowed. */
 nook_backend nook_context_backend(const nook_context *context);
 nook_gl_get_proc nook_context_get_proc(const nook_context *context);
 
-/** Reads waiting events. Headless: returns an input of zeros. */
+/** Reads waiting events. Headless: returns an input of zeros with a content_scale of 1. */
 void nook_context_poll(nook_context *context, nook_input *out_input);
 /** Shows the default framebuffer. Headless: nothing. */
 void nook_context_present(nook_context *context);
 /** Shows a window made hidden. Headless: nothing. */
 void nook_context_show(nook_context *context);
+/** Hides the pointer and keeps it inside, so that mouse_dx and mouse_dy never end: for looking around. Headless: nothing. */
+void nook_context_capture_mouse(nook_context *context, bool captured);
+/** Covers the monitor that the window is on, or gives it back its place. Headless: nothing. */
+void nook_context_set_fullscreen(nook_context *context, bool fullscreen);
 /** What stands above the window. Headless: nothing. */
 void nook_context_set_title(nook_context *context, const char *title);
 

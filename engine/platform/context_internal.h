@@ -15,10 +15,12 @@ struct nook_context {
     nook_backend backend;
     nook_gl_get_proc get_proc;
     void (*destroy)(nook_context *context);
-    void (*poll)(nook_context *context, nook_input *out_input);  /**< NULL: no input, zeros. */
-    void (*present)(nook_context *context);                      /**< NULL: nothing to show. */
-    void (*show)(nook_context *context);                         /**< NULL: no window. */
-    void (*set_title)(nook_context *context, const char *title); /**< NULL: no window. */
+    void (*poll)(nook_context *context, nook_input *out_input);     /**< NULL: no input, zeros. */
+    void (*present)(nook_context *context);                         /**< NULL: nothing to show. */
+    void (*show)(nook_context *context);                            /**< NULL: no window. */
+    void (*set_title)(nook_context *context, const char *title);    /**< NULL: no window. */
+    void (*capture_mouse)(nook_context *context, bool captured);    /**< NULL: no window. */
+    void (*set_fullscreen)(nook_context *context, bool fullscreen); /**< NULL: no window. */
 };
 
 /** Each makes its context current. On failure: NOOK_E_DEVICE or NOOK_E_MEMORY, the reason, nothing logged, no output. */

@@ -3,6 +3,7 @@
 #include "engine/platform/context_internal.h"
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -14,6 +15,11 @@ typedef struct window_context {
     double scroll;               /**< Since the last poll. */
     double mouse_x, mouse_y;     /**< At the last poll. */
     bool mouse_known;            /**< False until the first poll: no jump in the first delta. */
+    bool mouse_pressed[3];       /**< Since the last poll. */
+    uint32_t typed[NOOK_INPUT_TYPED_MAX]; /**< Since the last poll. */
+    uint32_t typed_count;
+    bool pad_down[NOOK_PAD_COUNT]; /**< At the last poll. */
+    int place[4];                  /**< Of the window before it covered a monitor: x, y, width, height. */
 } window_context;
 
 /* The keys of nook_key in order; the second is 0 or another key that counts as the same. */
@@ -63,6 +69,26 @@ static const int glfw_keys[NOOK_KEY_COUNT][2] = {
     [NOOK_KEY_Z] = { GLFW_KEY_Z, 0 },
     [NOOK_KEY_SHIFT] = { GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT },
     [NOOK_KEY_CONTROL] = { GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL },
+    [NOOK_KEY_ALT] = { GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT },
+    [NOOK_KEY_ENTER] = { GLFW_KEY_ENTER, GLFW_KEY_KP_ENTER },
+    [NOOK_KEY_BACKSPACE] = { GLFW_KEY_BACKSPACE, 0 },
+    [NOOK_KEY_DELETE] = { GLFW_KEY_DELETE, 0 },
+    [NOOK_KEY_HOME] = { GLFW_KEY_HOME, 0 },
+    [NOOK_KEY_END] = { GLFW_KEY_END, 0 },
+    [NOOK_KEY_PLUS] = { GLFW_KEY_EQUAL, GLFW_KEY_KP_ADD },
+    [NOOK_KEY_MINUS] = { GLFW_KEY_MINUS, GLFW_KEY_KP_SUBTRACT },
+    [NOOK_KEY_F1] = { GLFW_KEY_F1, 0 },
+    [NOOK_KEY_F2] = { GLFW_KEY_F2, 0 },
+    [NOOK_KEY_F3] = { GLFW_KEY_F3, 0 },
+    [NOOK_KEY_F4] = { GLFW_KEY_F4, 0 },
+    [NOOK_KEY_F5] = { GLFW_KEY_F5, 0 },
+    [NOOK_KEY_F6] = { GLFW_KEY_F6, 0 },
+    [NOOK_KEY_F7] = { GLFW_KEY_F7, 0 },
+    [NOOK_KEY_F8] = { GLFW_KEY_F8, 0 },
+    [NOOK_KEY_F9] = { GLFW_KEY_F9, 0 },
+    [NOOK_KEY_F10] = { GLFW_KEY_F10, 0 },
+    [NOOK_KEY_F11] = { GLFW_KEY_F11, 0 },
+    [NOOK_KEY_F12] = { GLFW_KEY_F12, 0 },
 };
 
 static void on_key(GLFWwindow *window, int key, int scancode, int action, int modifiers)
@@ -72,6 +98,24 @@ static void on_key(GLFWwindow *window, int key, int scancode, int action, int mo
     for (int i = 0; action == GLFW_PRESS && i < NOOK_KEY_COUNT; i++)
         if (key > 0 && (glfw_keys[i][0] == key || glfw_keys[i][1] == key))
             self->pressed[i] = true;
+}
+
+static void on_character(GLFWwindow *window, unsigned character)
+{
+    window_context *self = glfwGetWindowUserPointer(window);
+    if (self->typed_count < NOOK_INPUT_TYPED_MAX)
+        self->typed[self->typed_count++] = character;
+}
+
+static const int mouse_buttons[3] = { GLFW_MOUSE_BUTTON_LEFT, GLFW_MOUSE_BUTTON_RIGHT, GLFW_MOUSE_BUTTON_MIDDLE };
+
+static void on_mouse_button(GLFWwindow *window, int button, int action, int modifiers)
+{
+    (void)modifiers;
+    window_context *self = glfwGetWindowUserPointer(window);
+    for (int i = 0; action == GLFW_PRESS && i < 3; i++)
+        if (mouse_buttons[i] == button)
+            self->mouse_pressed[i] = true;
 }
 
 static void on_scroll(GLFWwindow *window, double x, double y)
@@ -89,7 +133,6 @@ static bool key_is_down(GLFWwindow *window, const int keys[2])
 /* GLFW speaks of screen coordinates; on dense displays one of them is several pixels. */
 static void read_mouse(window_context *self, nook_input *input)
 {
-    static const int buttons[3] = { GLFW_MOUSE_BUTTON_LEFT, GLFW_MOUSE_BUTTON_RIGHT, GLFW_MOUSE_BUTTON_MIDDLE };
     int width = 0, height = 0;
     glfwGetWindowSize(self->window, &width, &height);
     glfwGetCursorPos(self->window, &input->mouse_x, &input->mouse_y);
@@ -105,7 +148,48 @@ static void read_mouse(window_context *self, nook_input *input)
     self->mouse_x = input->mouse_x;
     self->mouse_y = input->mouse_y;
     for (int i = 0; i < 3; i++)
-        input->mouse_down[i] = glfwGetMouseButton(self->window, buttons[i]) == GLFW_PRESS;
+        input->mouse_down[i] = glfwGetMouseButton(self->window, mouse_buttons[i]) == GLFW_PRESS;
+}
+
+/* A stick's two axes, its middle made quiet; what lies outside of that starts from 0 again. */
+static void read_stick(const float axes[2], double out[2])
+{
+    const double dead = 0.15;
+    double x = axes[0], y = -axes[1]; /* GLFW's y points down */
+    double length = sqrt(x * x + y * y);
+    double scale = length > dead ? fmin((length - dead) / (1.0 - dead), 1.0) / length : 0.0;
+    out[0] = x * scale;
+    out[1] = y * scale;
+}
+
+static void read_gamepad(window_context *self, nook_gamepad *out)
+{
+    static const int buttons[NOOK_PAD_COUNT] = {
+        [NOOK_PAD_SOUTH] = GLFW_GAMEPAD_BUTTON_A,
+        [NOOK_PAD_EAST] = GLFW_GAMEPAD_BUTTON_B,
+        [NOOK_PAD_WEST] = GLFW_GAMEPAD_BUTTON_X,
+        [NOOK_PAD_NORTH] = GLFW_GAMEPAD_BUTTON_Y,
+        [NOOK_PAD_LEFT_BUMPER] = GLFW_GAMEPAD_BUTTON_LEFT_BUMPER,
+        [NOOK_PAD_RIGHT_BUMPER] = GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER,
+        [NOOK_PAD_BACK] = GLFW_GAMEPAD_BUTTON_BACK,
+        [NOOK_PAD_START] = GLFW_GAMEPAD_BUTTON_START,
+        [NOOK_PAD_LEFT_THUMB] = GLFW_GAMEPAD_BUTTON_LEFT_THUMB,
+        [NOOK_PAD_RIGHT_THUMB] = GLFW_GAMEPAD_BUTTON_RIGHT_THUMB,
+    };
+    GLFWgamepadstate state = { 0 };
+    for (int i = GLFW_JOYSTICK_1; i <= GLFW_JOYSTICK_LAST && !out->present; i++)
+        out->present = glfwJoystickIsGamepad(i) && glfwGetGamepadState(i, &state);
+    for (int i = 0; i < NOOK_PAD_COUNT; i++) {
+        out->down[i] = out->present && state.buttons[buttons[i]] == GLFW_PRESS;
+        out->pressed[i] = out->down[i] && !self->pad_down[i];
+    }
+    memcpy(self->pad_down, out->down, sizeof self->pad_down);
+    if (!out->present)
+        return;
+    read_stick(&state.axes[GLFW_GAMEPAD_AXIS_LEFT_X], out->left);
+    read_stick(&state.axes[GLFW_GAMEPAD_AXIS_RIGHT_X], out->right);
+    out->left_trigger = 0.5 + 0.5 * (double)state.axes[GLFW_GAMEPAD_AXIS_LEFT_TRIGGER];
+    out->right_trigger = 0.5 + 0.5 * (double)state.axes[GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER];
 }
 
 static void poll(nook_context *context, nook_input *out_input)
@@ -123,7 +207,16 @@ static void poll(nook_context *context, nook_input *out_input)
     input.scroll = self->scroll;
     input.close_requested = glfwWindowShouldClose(self->window) != 0;
     read_mouse(self, &input);
+    read_gamepad(self, &input.pad);
+    memcpy(input.mouse_pressed, self->mouse_pressed, sizeof input.mouse_pressed);
+    memcpy(input.typed, self->typed, self->typed_count * sizeof *self->typed);
+    input.focused = glfwGetWindowAttrib(self->window, GLFW_FOCUSED) != 0;
+    float scale_x = 1.0f, scale_y = 1.0f;
+    glfwGetWindowContentScale(self->window, &scale_x, &scale_y);
+    input.content_scale = scale_y > 0.0f ? (double)scale_y : 1.0;
     memset(self->pressed, 0, sizeof self->pressed);
+    memset(self->mouse_pressed, 0, sizeof self->mouse_pressed);
+    self->typed_count = 0;
     self->scroll = 0;
     *out_input = input;
 }
@@ -141,6 +234,51 @@ static void show(nook_context *context)
 static void set_title(nook_context *context, const char *title)
 {
     glfwSetWindowTitle(((window_context *)context)->window, title);
+}
+
+static void capture_mouse(nook_context *context, bool captured)
+{
+    window_context *self = (window_context *)context;
+    glfwSetInputMode(self->window, GLFW_CURSOR, captured ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
+    if (glfwRawMouseMotionSupported())
+        glfwSetInputMode(self->window, GLFW_RAW_MOUSE_MOTION, captured ? GLFW_TRUE : GLFW_FALSE);
+    self->mouse_known = false; /* the pointer jumps */
+}
+
+/* The monitor whose area holds the window's middle, else the first. */
+static GLFWmonitor *monitor_of(GLFWwindow *window)
+{
+    int count = 0, x = 0, y = 0, width = 0, height = 0;
+    GLFWmonitor **monitors = glfwGetMonitors(&count);
+    glfwGetWindowPos(window, &x, &y);
+    glfwGetWindowSize(window, &width, &height);
+    for (int i = 0; i < count; i++) {
+        int left = 0, top = 0;
+        const GLFWvidmode *mode = glfwGetVideoMode(monitors[i]);
+        glfwGetMonitorPos(monitors[i], &left, &top);
+        int u = x + width / 2 - left, v = y + height / 2 - top;
+        if (mode && u >= 0 && u < mode->width && v >= 0 && v < mode->height)
+            return monitors[i];
+    }
+    return glfwGetPrimaryMonitor();
+}
+
+static void set_fullscreen(nook_context *context, bool fullscreen)
+{
+    window_context *self = (window_context *)context;
+    if (fullscreen == (glfwGetWindowMonitor(self->window) != NULL))
+        return;
+    if (!fullscreen) {
+        glfwSetWindowMonitor(self->window, NULL, self->place[0], self->place[1], self->place[2], self->place[3], 0);
+        return;
+    }
+    GLFWmonitor *monitor = monitor_of(self->window);
+    const GLFWvidmode *mode = monitor ? glfwGetVideoMode(monitor) : NULL;
+    if (!mode)
+        return;
+    glfwGetWindowPos(self->window, &self->place[0], &self->place[1]);
+    glfwGetWindowSize(self->window, &self->place[2], &self->place[3]);
+    glfwSetWindowMonitor(self->window, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
 }
 
 static void destroy(nook_context *context)
@@ -190,7 +328,15 @@ nook_result nook_window_create(const nook_context_desc *desc, nook_context_reaso
         free(self);
         return result;
     }
-    self->base = (nook_context){ NOOK_BACKEND_WINDOW, glfwGetProcAddress, destroy, poll, present, show, set_title };
+    self->base = (nook_context){ .backend = NOOK_BACKEND_WINDOW,
+                                 .get_proc = glfwGetProcAddress,
+                                 .destroy = destroy,
+                                 .poll = poll,
+                                 .present = present,
+                                 .show = show,
+                                 .set_title = set_title,
+                                 .capture_mouse = capture_mouse,
+                                 .set_fullscreen = set_fullscreen };
     self->window = open_window(desc);
     if (!self->window) {
         glfwGetError(&message);
@@ -203,6 +349,8 @@ nook_result nook_window_create(const nook_context_desc *desc, nook_context_reaso
     glfwSetWindowUserPointer(self->window, self);
     glfwSetKeyCallback(self->window, on_key);
     glfwSetScrollCallback(self->window, on_scroll);
+    glfwSetCharCallback(self->window, on_character);
+    glfwSetMouseButtonCallback(self->window, on_mouse_button);
     glfwMakeContextCurrent(self->window);
     glfwSwapInterval(1);
     *out_context = &self->base;

@@ -95,7 +95,7 @@ static void test_automatic_choice_without_a_window_prefers_hardware_then_osmesa(
     nook_context_destroy(context);
 }
 
-static void test_headless_input_is_zero(void **state)
+static void test_headless_input_is_zero_but_for_the_scale_of_letters(void **state)
 {
     (void)state;
     nook_input input, zero;
@@ -104,6 +104,8 @@ static void test_headless_input_is_zero(void **state)
     memset(&zero, 0, sizeof zero);
     nook_context_poll(context, &input);
     nook_context_present(context);
+    assert_true(input.content_scale == 1.0);
+    input.content_scale = 0.0;
     assert_memory_equal(&input, &zero, sizeof zero);
     nook_context_destroy(context);
 }
@@ -153,7 +155,7 @@ int main(void)
         cmocka_unit_test(test_contexts_of_all_kinds_follow_one_another),
         cmocka_unit_test(test_ending_an_older_context_leaves_the_current_one_alive),
         cmocka_unit_test(test_automatic_choice_without_a_window_prefers_hardware_then_osmesa),
-        cmocka_unit_test(test_headless_input_is_zero),
+        cmocka_unit_test(test_headless_input_is_zero_but_for_the_scale_of_letters),
         cmocka_unit_test(test_destroying_nothing_is_allowed),
         cmocka_unit_test(test_backends_have_names),
         cmocka_unit_test(test_unknown_backend_names_are_refused),

@@ -246,6 +246,59 @@ static void test_input_reaches_the_program(void **state)
     send_input("mouseup 1 click 4");
     poll_until(context, &input, input.scroll > 0);
     assert_false(input.mouse_down[0]);
+    assert_false(input.mouse_pressed[0]);
+    send_input("click 1"); /* down and up again before the poll */
+    poll_until(context, &input, input.mouse_pressed[0]);
+    send_input("key a");
+    poll_until(context, &input, input.typed[0] == 'a');
+    assert_int_equal(input.typed[1], 0);
+    send_input("key F12");
+    poll_until(context, &input, input.pressed[NOOK_KEY_F12]);
+    assert_true(input.content_scale > 0.0);
+    assert_false(input.pad.present);
+    nook_context_destroy(context);
+}
+
+static void test_full_screen_covers_the_monitor_and_gives_the_window_its_size_back(void **state)
+{
+    display_of(state);
+    nook_context *context = open_window(false);
+    nook_input input;
+    nook_context_poll(context, &input);
+    nook_context_set_fullscreen(context, true);
+    poll_until(context, &input, input.width > 320 && input.height > 200);
+    nook_context_set_fullscreen(context, true); /* it does already */
+    nook_context_set_fullscreen(context, false);
+    poll_until(context, &input, input.width == 320 && input.height == 200);
+    nook_context_destroy(context);
+}
+
+static void test_a_captured_mouse_moves_further_than_the_window_reaches(void **state)
+{
+    display_of(state);
+    if (system("command -v xdotool >/dev/null") != 0) {
+        print_message("no xdotool: the window's input is not tested\n");
+        skip();
+    }
+    nook_context *context = open_window(true);
+    nook_input input;
+    double moved = 0.0;
+    nook_context_show(context);
+    nook_context_set_title(context, TITLE " with input");
+    nook_context_present(context);
+    send_input("key w");
+    nook_context_poll(context, &input);
+    nook_context_capture_mouse(context, true);
+    nook_context_poll(context, &input);
+    assert_true(input.mouse_dx == 0.0); /* no jump */
+    for (int i = 0; i < 12 && moved < 500.0; i++) {
+        send_input("mousemove_relative -- 90 0");
+        usleep(50000);
+        nook_context_poll(context, &input);
+        moved += input.mouse_dx;
+    }
+    assert_true(moved >= 500.0); /* of a window of 320 */
+    nook_context_capture_mouse(context, false);
     nook_context_destroy(context);
 }
 
@@ -259,6 +312,8 @@ int main(void)
         cmocka_unit_test(test_window_and_headless_contexts_follow_one_another),
         cmocka_unit_test(test_ending_an_older_window_leaves_the_current_one_alive),
         cmocka_unit_test(test_input_reaches_the_program),
+        cmocka_unit_test(test_full_screen_covers_the_monitor_and_gives_the_window_its_size_back),
+        cmocka_unit_test(test_a_captured_mouse_moves_further_than_the_window_reaches),
     };
     return cmocka_run_group_tests_name("window", tests, open_display, close_display);
 }
