@@ -1,0 +1,82 @@
+#include "game/play/controls.h"
+#include <math.h>
+
+static const double turns_per_degree = 65536.0 / 360.0;
+
+/* Two directions of keys and one of a stick, as a part of the walking speed. */
+static double axis(bool minus, bool plus, double stick)
+{
+    return fmin(fmax((plus ? 1.0 : 0.0) - (minus ? 1.0 : 0.0) + stick, -1.0), 1.0);
+}
+
+static uint16_t held_buttons(const nook_input *input)
+{
+    const bool *down = input->down;
+    const nook_gamepad *pad = &input->pad;
+    uint16_t buttons = 0;
+    if (down[NOOK_KEY_SPACE] || pad->down[NOOK_PAD_SOUTH])
+        buttons |= NOOK_PLAY_JUMP;
+    if (down[NOOK_KEY_SHIFT] || pad->left_trigger > 0.5)
+        buttons |= NOOK_PLAY_RUN;
+    if (down[NOOK_KEY_CONTROL] || down[NOOK_KEY_C] || pad->down[NOOK_PAD_EAST])
+        buttons |= NOOK_PLAY_CROUCH;
+    if (down[NOOK_KEY_R] || pad->down[NOOK_PAD_RIGHT_BUMPER])
+        buttons |= NOOK_PLAY_TURN;
+    return buttons;
+}
+
+/* A jump is in both: a key that was down for less than a frame counts too. */
+static uint16_t pressed_buttons(nook_controls *controls, const nook_input *input)
+{
+    const bool *pressed = input->pressed;
+    const nook_gamepad *pad = &input->pad;
+    bool trigger = pad->right_trigger > 0.5;
+    uint16_t buttons = 0;
+    if (pressed[NOOK_KEY_SPACE] || pad->pressed[NOOK_PAD_SOUTH])
+        buttons |= NOOK_PLAY_JUMP;
+    if (pressed[NOOK_KEY_E] || input->mouse_pressed[0] || pad->pressed[NOOK_PAD_WEST])
+        buttons |= NOOK_PLAY_TAKE;
+    if (pressed[NOOK_KEY_Q] || input->mouse_pressed[1] || (trigger && !controls->thrown))
+        buttons |= NOOK_PLAY_THROW;
+    if (pressed[NOOK_KEY_BACKSPACE] || pad->pressed[NOOK_PAD_BACK])
+        buttons |= NOOK_PLAY_RESTART;
+    controls->thrown = trigger;
+    return buttons;
+}
+
+void nook_controls_add(nook_controls *controls, const nook_input *input, const nook_preferences *preferences,
+                       double seconds)
+{
+    const bool *down = input->down;
+    const nook_gamepad *pad = &input->pad;
+    double mouse = (double)preferences->mouse_speed * turns_per_degree;
+    double stick = (double)preferences->pad_speed * seconds * turns_per_degree;
+    double up = preferences->invert_y ? -1.0 : 1.0;
+    controls->yaw += -input->mouse_dx * mouse - pad->right[0] * stick;
+    controls->pitch += (-input->mouse_dy * mouse + pad->right[1] * stick) * up;
+    double right =
+        axis(down[NOOK_KEY_A] || down[NOOK_KEY_LEFT], down[NOOK_KEY_D] || down[NOOK_KEY_RIGHT], pad->left[0]);
+    double forward = axis(down[NOOK_KEY_S] || down[NOOK_KEY_DOWN], down[NOOK_KEY_W] || down[NOOK_KEY_UP], pad->left[1]);
+    controls->held.right = (int8_t)lround(127.0 * right);
+    controls->held.forward = (int8_t)lround(127.0 * forward);
+    controls->held.buttons = held_buttons(input);
+    controls->pressed |= pressed_buttons(controls, input);
+}
+
+/* Takes whole steps; what is left of one waits for the next tick. */
+static int16_t take_turn(double *turn)
+{
+    double whole = fmin(fmax(trunc(*turn), INT16_MIN), INT16_MAX);
+    *turn -= whole;
+    return (int16_t)whole;
+}
+
+nook_play_input nook_controls_take(nook_controls *controls)
+{
+    nook_play_input input = controls->held;
+    input.buttons |= controls->pressed;
+    input.yaw = take_turn(&controls->yaw);
+    input.pitch = take_turn(&controls->pitch);
+    controls->pressed = 0;
+    return input;
+}
