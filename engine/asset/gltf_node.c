@@ -90,7 +90,9 @@ static nook_result convert_node(traversal *t, uint32_t index, uint32_t parent)
                        .camera = NOOK_NONE,
                        .light = NOOK_NONE,
                        .skin = from->mesh == NOOK_GLTF_NONE ? NOOK_NONE : from->skin,
-                       .world_from_local = t->worlds[at] };
+                       .world_from_local = t->worlds[at],
+                       .mass = from->mass > 0.0 && isfinite(from->mass) ? from->mass : 0.0,
+                       .hung = from->hung };
     to->name = nook_scene_copy_string(from->name);
     if (!to->name)
         return NOOK_E_MEMORY;

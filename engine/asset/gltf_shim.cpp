@@ -47,6 +47,14 @@ double number_of(const tinygltf::Value &object, const char *key, double fallback
     return object.Get(key).GetNumberAsDouble();
 }
 
+/* 1 true, 0 false, -1 when it is not there or no truth value. */
+int flag_of(const tinygltf::Value &object, const char *key)
+{
+    if (!object.IsObject() || !object.Has(key) || !object.Get(key).IsBool())
+        return -1;
+    return object.Get(key).Get<bool>();
+}
+
 const tinygltf::Value *extension_of(const tinygltf::ExtensionMap &extensions, const char *name)
 {
     auto found = extensions.find(name);
@@ -178,8 +186,9 @@ nook_gltf_node plain_node(holder &h, const tinygltf::Node &from)
     copy_numbers(from.rotation, to.rotation, 4);
     std::fill_n(to.scale, 3, 1.0);
     copy_numbers(from.scale, to.scale, 3);
-    bool given = from.extras.IsObject() && from.extras.Has("nook_body") && from.extras.Get("nook_body").IsBool();
-    to.body = given ? from.extras.Get("nook_body").Get<bool>() : -1;
+    to.body = flag_of(from.extras, "nook_body");
+    to.hung = flag_of(from.extras, "nook_hung") == 1;
+    to.mass = number_of(from.extras, "nook_mass", 0.0);
     return to;
 }
 

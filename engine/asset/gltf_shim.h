@@ -75,7 +75,9 @@ typedef struct nook_gltf_node {
     uint32_t first_child, child_count; /**< Into model->children. */
     bool has_matrix;
     double matrix[16], translation[3], rotation[4], scale[3];
-    int body; /**< extras.nook_body: 1 true, 0 false, -1 not given. */
+    int body;    /**< extras.nook_body: 1 true, 0 false, -1 not given. */
+    double mass; /**< extras.nook_mass; 0 not given. */
+    bool hung;   /**< extras.nook_hung. */
 } nook_gltf_node;
 
 typedef struct nook_gltf_camera {

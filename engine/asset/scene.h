@@ -74,6 +74,8 @@ typedef struct nook_node {
      * its mesh is drawn by several nodes.
      */
     bool moving;
+    double mass; /**< Kilograms, extras {"nook_mass": number}; 0 when it is not given. */
+    bool hung;   /**< extras {"nook_hung": true}: the body hangs on another and does not fall. */
 } nook_node;
 
 typedef struct nook_scene_camera {

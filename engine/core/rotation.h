@@ -7,6 +7,7 @@
  */
 #pragma once
 #include "engine/core/matrix.h"
+#include <stdbool.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -20,6 +21,23 @@ extern "C" {
  * @param angular_velocity  radians per second, right-handed; finite
  */
 void nook_rotation_advance(double rotation[4], const double angular_velocity[3], double seconds);
+
+/** a * b: turns by b first. `out` may be an input. */
+void nook_rotation_multiply(const double a[4], const double b[4], double out[4]);
+/** The turn back, of a unit one. `out` may be the input. */
+void nook_rotation_inverse(const double rotation[4], double out[4]);
+/** Turns a vector. `out` may be the input. */
+void nook_rotation_apply(const double rotation[4], const double v[3], double out[3]);
+/** By `radians` about an axis, right-handed. @param axis unit */
+void nook_rotation_about(const double axis[3], double radians, double out[4]);
+/** About x, then y, then z, of the space that does not turn. @param degrees of each */
+void nook_rotation_from_degrees(const double degrees[3], double out[4]);
+/**
+ * Takes a transform apart into a rotation and a scale along its own axes: matrix = rotation * scale where it has no shear; with
+ * shear, the rotation is that of its x axis and the plane of x and y. A mirroring one has its first scale negative.
+ * @return false: an axis has no length; the outputs are untouched then
+ */
+bool nook_rotation_from_matrix(const nook_matrix *matrix, double out_rotation[4], double out_scale[3]);
 
 /** The rotation alone; its columns are orthonormal to about 4 * 2.2e-16. @param rotation unit */
 nook_matrix nook_rotation_matrix(const double rotation[4]);

@@ -135,6 +135,71 @@ static void test_a_million_frames_keep_what_a_matrix_of_floats_loses(void **stat
     assert_true(naive_worst > 1e-3); /* if not, docs/measuring.md says something that is wrong */
 }
 
+static void test_apply_is_what_the_matrix_does(void **state)
+{
+    (void)state;
+    const double degrees[3] = { 20, -70, 130 }, v[3] = { 1, 2, -3 };
+    double q[4], out[3];
+    nook_rotation_from_degrees(degrees, q);
+    nook_rotation_apply(q, v, out);
+    nook_matrix m = nook_rotation_matrix(q);
+    double expected[3];
+    nook_matrix_apply_vector(&m, v, expected);
+    for (int i = 0; i < 3; i++)
+        assert_near(out[i], expected[i], 16 * DBL_EPSILON);
+}
+
+static void test_degrees_turn_about_x_first_then_y_then_z(void **state)
+{
+    (void)state;
+    const double quarter[3] = { 90, 90, 0 }, y[3] = { 0, 1, 0 }, all[3] = { 90, 90, 90 };
+    double q[4];
+    nook_rotation_from_degrees(quarter, q);
+    assert_turns_to(q, y, 1, 0, 0); /* about x to z, about y to x */
+    nook_rotation_from_degrees(all, q);
+    assert_turns_to(q, y, 0, 1, 0); /* and about z to y */
+}
+
+static void test_multiply_and_inverse_undo_each_other(void **state)
+{
+    (void)state;
+    const double degrees[3] = { 12, 34, 56 };
+    double q[4], back[4];
+    nook_rotation_from_degrees(degrees, q);
+    nook_rotation_inverse(q, back);
+    nook_rotation_multiply(back, q, q);
+    for (int i = 0; i < 4; i++)
+        assert_near(q[i], i == 3, 4 * DBL_EPSILON);
+}
+
+static void test_a_matrix_is_taken_apart_into_what_it_was_made_of(void **state)
+{
+    (void)state;
+    static const double turns[][3] = { { 0, 0, 0 },   { 179, 0, 0 }, { 0, 180, 0 },    { 0, 0, 181 },
+                                       { 90, 90, 0 }, { 5, -7, 11 }, { -120, 40, 77 }, { 33, 200, -150 } };
+    for (size_t i = 0; i < sizeof turns / sizeof *turns; i++) {
+        const double at[3] = { 4, 5, 6 }, scale[3] = { i % 2 ? -2.0 : 2.0, 0.5, 3.0 };
+        double q[4], found[4], found_scale[3];
+        nook_rotation_from_degrees(turns[i], q);
+        nook_matrix m = nook_matrix_compose(at, q, scale);
+        assert_true(nook_rotation_from_matrix(&m, found, found_scale));
+        nook_matrix again = nook_matrix_compose(at, found, found_scale);
+        for (int k = 0; k < 16; k++)
+            assert_near(again.m[k], m.m[k], 32 * DBL_EPSILON);
+    }
+}
+
+static void test_a_flat_matrix_has_no_rotation(void **state)
+{
+    (void)state;
+    double q[4] = { 7, 7, 7, 7 }, scale[3] = { 7, 7, 7 };
+    for (int axis = 0; axis < 3; axis++) {
+        nook_matrix m = nook_matrix_scale(axis != 0, axis != 1, axis != 2);
+        assert_false(nook_rotation_from_matrix(&m, q, scale));
+    }
+    assert_true(q[0] == 7 && scale[2] == 7);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -145,6 +210,11 @@ int main(void)
         cmocka_unit_test(test_ten_thousand_steps_end_where_one_ends),
         cmocka_unit_test(test_matrix_is_orthonormal_and_not_mirrored),
         cmocka_unit_test(test_a_million_frames_keep_what_a_matrix_of_floats_loses),
+        cmocka_unit_test(test_apply_is_what_the_matrix_does),
+        cmocka_unit_test(test_degrees_turn_about_x_first_then_y_then_z),
+        cmocka_unit_test(test_multiply_and_inverse_undo_each_other),
+        cmocka_unit_test(test_a_matrix_is_taken_apart_into_what_it_was_made_of),
+        cmocka_unit_test(test_a_flat_matrix_has_no_rotation),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
