@@ -44,8 +44,9 @@ typedef struct ao_counts {
 typedef struct ao_targets {
     nook_texture depth, normal, visibility;                   /**< Full size. */
     nook_texture trace_depth, trace_normal, trace_visibility; /**< Trace size; depth and normal id 0 at scale 1. */
-    uint32_t width, height;                                   /**< Of the full-size ones; 0 before there are any. */
-    uint32_t scale;                                           /**< Of the trace's; 0 before there are any. */
+    nook_texture trace_filtered; /**< Trace size; id 0 until a stepped upscaling needs it. */
+    uint32_t width, height;      /**< Of the full-size ones; 0 before there are any. */
+    uint32_t scale;              /**< Of the trace's; 0 before there are any. */
 } ao_targets;
 
 struct nook_ao {
@@ -71,6 +72,8 @@ struct nook_ao {
 
 /** Makes the textures fit width, height and scale; keeps them when they do. @return NOOK_E_MEMORY, NOOK_E_DEVICE */
 nook_result ao_targets_fit(nook_gpu *gpu, ao_targets *targets, uint32_t width, uint32_t height, uint32_t scale);
+/** Makes trace_filtered, unless it is there. @return NOOK_E_MEMORY */
+nook_result ao_targets_fit_filtered(nook_gpu *gpu, ao_targets *targets);
 void ao_targets_release(nook_gpu *gpu, ao_targets *targets);
 uint64_t ao_targets_bytes(const ao_targets *targets); /**< As they are now. */
 

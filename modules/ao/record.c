@@ -110,12 +110,12 @@ static frame_block make_block(const nook_ao *ao, const nook_ao_frame *frame, uin
 }
 
 /** Runs one of our own shaders, 16 x 8 pixels a group, with what is bound. */
-static nook_result dispatch_over(nook_ao *ao, const char *path, uint32_t width, uint32_t height)
+static nook_result dispatch_over(nook_ao *ao, const char *path, const char *defines, uint32_t width, uint32_t height)
 {
     nook_program program;
     nook_bind_uniform(ao->gpu, 0, ao->frame);
     nook_bind_storage(ao->gpu, BINDING_COUNTER, ao->counter);
-    nook_result result = nook_program_compute(ao->gpu, path, "", &program);
+    nook_result result = nook_program_compute(ao->gpu, path, defines, &program);
     if (result == NOOK_OK)
         nook_dispatch(ao->gpu, program, nook_groups(width, 16), nook_groups(height, 8), 1);
     return result;
@@ -127,7 +127,7 @@ static nook_result dispatch_prepare(nook_ao *ao, const nook_ao_frame *frame)
     nook_bind_texture(ao->gpu, 1, host_texture(frame->normal.native ? frame->normal : frame->depth));
     nook_bind_image(ao->gpu, 0, ao->targets.depth, GL_WRITE_ONLY);
     nook_bind_image(ao->gpu, 1, ao->targets.normal, GL_WRITE_ONLY);
-    return dispatch_over(ao, "shaders/ao/prepare.comp.glsl", ao->width, ao->height);
+    return dispatch_over(ao, "shaders/ao/prepare.comp.glsl", "", ao->width, ao->height);
 }
 
 static nook_result dispatch_pick(nook_ao *ao)
@@ -137,19 +137,45 @@ static nook_result dispatch_pick(nook_ao *ao)
     nook_bind_texture(ao->gpu, 1, targets->normal);
     nook_bind_image(ao->gpu, 0, targets->trace_depth, GL_WRITE_ONLY);
     nook_bind_image(ao->gpu, 1, targets->trace_normal, GL_WRITE_ONLY);
-    return dispatch_over(ao, "shaders/ao/pick.comp.glsl", targets->trace_depth.width, targets->trace_depth.height);
+    return dispatch_over(ao, "shaders/ao/pick.comp.glsl", "", targets->trace_depth.width, targets->trace_depth.height);
 }
 
-static nook_result dispatch_filter(nook_ao *ao)
+/** What guide.glsl binds; `samples` of the trace's visibility. */
+static void bind_guides(nook_ao *ao, nook_texture samples, nook_texture out)
 {
     const ao_targets *targets = &ao->targets;
     nook_bind_texture(ao->gpu, 0, targets->depth);
     nook_bind_texture(ao->gpu, 1, targets->normal);
     nook_bind_texture(ao->gpu, 2, targets->scale > 1 ? targets->trace_depth : targets->depth);
     nook_bind_texture(ao->gpu, 3, targets->scale > 1 ? targets->trace_normal : targets->normal);
-    nook_bind_texture(ao->gpu, 4, targets->trace_visibility);
-    nook_bind_image(ao->gpu, 0, targets->visibility, GL_WRITE_ONLY);
-    return dispatch_over(ao, "shaders/ao/filter.comp.glsl", ao->width, ao->height);
+    nook_bind_texture(ao->gpu, 4, samples);
+    nook_bind_image(ao->gpu, 0, out, GL_WRITE_ONLY);
+}
+
+static nook_result filter_direct(nook_ao *ao)
+{
+    bind_guides(ao, ao->targets.trace_visibility, ao->targets.visibility);
+    return dispatch_over(ao, "shaders/ao/filter.comp.glsl", "", ao->width, ao->height);
+}
+
+/** Where the picture has 4 or 16 times the pixels of the trace, most of the filter's work is done once for all of them. */
+static nook_result filter_stepped(nook_ao *ao)
+{
+    ao_targets *targets = &ao->targets;
+    nook_texture samples = targets->trace_visibility;
+    nook_result result = NOOK_OK;
+    if (ao->shared.filter != 0) {
+        result = ao_targets_fit_filtered(ao->gpu, targets);
+        if (result != NOOK_OK)
+            return result;
+        bind_guides(ao, samples, targets->trace_filtered);
+        result = dispatch_over(ao, "shaders/ao/filter.comp.glsl", "#define AT_TRACE\n", samples.width, samples.height);
+        samples = targets->trace_filtered;
+    }
+    if (result != NOOK_OK)
+        return result;
+    bind_guides(ao, samples, targets->visibility);
+    return dispatch_over(ao, "shaders/ao/upscale.comp.glsl", "", ao->width, ao->height);
 }
 
 static nook_result upload_inputs(nook_ao *ao, const ao_slot *slot, const nook_ao_frame *frame, uint32_t scale)
@@ -249,7 +275,7 @@ nook_result nook_ao_record(nook_ao *ao, const nook_ao_frame *frame)
     bind_pass(&pass);
     result = technique->record(slot->state, slot->params, &pass);
     if (result == NOOK_OK && !direct)
-        result = dispatch_filter(ao);
+        result = scale > 1 && ao->shared.upscale ? filter_stepped(ao) : filter_direct(ao);
     if (nook_gpu_check(ao->gpu, "nook_ao_record") && result == NOOK_OK)
         result = NOOK_E_DEVICE; /* the check has logged what it was */
     return result;

@@ -5,6 +5,7 @@ static void destroy_trace(nook_gpu *gpu, ao_targets *targets)
     nook_texture_destroy(gpu, &targets->trace_depth);
     nook_texture_destroy(gpu, &targets->trace_normal);
     nook_texture_destroy(gpu, &targets->trace_visibility);
+    nook_texture_destroy(gpu, &targets->trace_filtered);
     targets->scale = 0;
 }
 
@@ -62,6 +63,14 @@ nook_result ao_targets_fit(nook_gpu *gpu, ao_targets *targets, uint32_t width, u
     return result;
 }
 
+nook_result ao_targets_fit_filtered(nook_gpu *gpu, ao_targets *targets)
+{
+    if (targets->trace_filtered.id)
+        return NOOK_OK;
+    const nook_texture *like = &targets->trace_visibility;
+    return nook_texture_create_2d(gpu, GL_R32F, like->width, like->height, GL_NEAREST, &targets->trace_filtered);
+}
+
 static uint64_t pixels(const nook_texture *texture)
 {
     return (uint64_t)texture->width * texture->height; /* 0 for those that are not there */
@@ -72,5 +81,6 @@ uint64_t ao_targets_bytes(const ao_targets *targets)
     enum { DEPTH_BYTES = 4, NORMAL_BYTES = 4, VISIBILITY_BYTES = 4 }; /* R32F, RG16, R32F */
     return DEPTH_BYTES * (pixels(&targets->depth) + pixels(&targets->trace_depth)) +
            NORMAL_BYTES * (pixels(&targets->normal) + pixels(&targets->trace_normal)) +
-           VISIBILITY_BYTES * (pixels(&targets->visibility) + pixels(&targets->trace_visibility));
+           VISIBILITY_BYTES *
+               (pixels(&targets->visibility) + pixels(&targets->trace_visibility) + pixels(&targets->trace_filtered));
 }

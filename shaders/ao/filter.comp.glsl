@@ -1,45 +1,16 @@
-// Joint bilateral filter and upscaling in one (Papaioannou et al. 2010, section 6; Kopf et al. 2007): samples of the trace
-// around each full-resolution pixel, weighted by distance to the pixel's plane and by normal. ao.filter chooses which:
-// none, the nearest sample; disc, the paper's 17-sample Gaussian disc, narrowed along the depth gradient so that it stays on
-// the surface; tile, the 4x4 pixels that share one set of rays.
-//
-// Constant in gives constant out bit for bit: the result is the nearest sample plus a weighted mean of differences to it.
-#include "ao/frame.glsl"
-#include "ao/counter.glsl"
-#include "nook/octahedral.glsl"
+// Joint bilateral filter (Papaioannou et al. 2010, section 6; Kopf et al. 2007): samples of the trace around each pixel, weighted
+// by distance to the pixel's plane and by normal. ao.filter chooses which: none, the nearest sample; disc, the paper's 17-sample
+// Gaussian disc, narrowed along the depth gradient so that it stays on the surface; tile, the 4x4 pixels that share one set of
+// rays. For full-resolution pixels it upscales in the same pass; with AT_TRACE defined it filters the trace's own, and
+// upscale.comp.glsl comes after it.
+#include "ao/guide.glsl"
 layout(local_size_x = 16, local_size_y = 8) in;
-layout(binding = 0) uniform sampler2D depth_full;
-layout(binding = 1) uniform sampler2D normal_full;
-layout(binding = 2) uniform sampler2D depth_trace;
-layout(binding = 3) uniform sampler2D normal_trace;
-layout(binding = 4) uniform sampler2D visibility_trace;
-layout(binding = 0, r32f) uniform writeonly image2D visibility_out;
 
-// A golden-angle disc: radius sqrt((i + 0.5) / 16); the 17th sample is the centre.
 const int FILTER_NONE = 0, FILTER_DISC = 1, FILTER_TILE = 2; // ao.filter
+// A golden-angle disc: radius sqrt((i + 0.5) / 16); the 17th sample is the centre.
 const int RING = 16;
 const float GOLDEN_ANGLE = 2.39996323;
 const float SLANT_MIN = 0.5; // a disc of 4 pixels then still covers the 4x4 pixels that share one set of rays
-const float WEIGHT_MIN = 1e-3; // below this a sample is on another surface: it has no say at all
-
-struct Guide {
-    vec3 position, normal;
-    float footprint; // metres
-};
-
-// In trace pixels times ao.filter_depth; never negative.
-float plane_distance(Guide guide, ivec2 q, float depth)
-{
-    vec3 offset = view_position(q, depth) - guide.position;
-    return abs(dot(guide.normal, offset)) / (guide.footprint * float(frame.scale) * frame.filter_depth);
-}
-
-float guide_weight(Guide guide, ivec2 q, float depth)
-{
-    float plane = plane_distance(guide, q, depth);
-    float facing = max(dot(guide.normal, nook_octahedral_decode(fetch(normal_trace, q).xy)), 0.0);
-    return exp(-plane * plane) * pow(max(facing, 1e-6), frame.filter_normal);
-}
 
 // Disc to ellipse: the surface's slant shortens it along the gradient of depth.
 mat2 ellipse(vec3 normal, vec3 position)
@@ -73,22 +44,6 @@ ivec2 nearest_sample(vec2 centre, Guide guide)
     return best;
 }
 
-struct Mean {
-    float reference, sum, weights;
-};
-
-void add_sample(inout Mean mean, Guide guide, ivec2 q, float window)
-{
-    if (window <= 0.0 || any(lessThan(q, ivec2(0))) || any(greaterThanEqual(q, frame.size)))
-        return;
-    float depth = fetch(depth_trace, q).r;
-    float weight = depth > 0.0 ? guide_weight(guide, q, depth) : 0.0;
-    if (!(weight >= WEIGHT_MIN)) // nor has one that is not a number
-        return;
-    mean.sum += window * weight * (fetch(visibility_trace, q).r - mean.reference);
-    mean.weights += window * weight;
-}
-
 // The paper's: 17 samples, Gaussian.
 void add_disc(inout Mean mean, Guide guide, vec2 centre, ivec2 p)
 {
@@ -113,28 +68,13 @@ void add_tile(inout Mean mean, Guide guide, vec2 centre)
     }
 }
 
-// When no sample lies on the pixel's own surface (the bottom of a joint that the trace has jumped over), one alone would show
-// its noise: all around have a say, those near the pixel's plane most.
-void add_around(inout Mean mean, Guide guide, vec2 centre)
-{
-    ivec2 base = ivec2(round(centre));
-    for (int i = 0; i < 25; i++) {
-        ivec2 q = base + ivec2(i % 5 - 2, i / 5 - 2);
-        if (any(lessThan(q, ivec2(0))) || any(greaterThanEqual(q, frame.size)))
-            continue;
-        float depth = fetch(depth_trace, q).r;
-        vec2 covered = clamp(2.5 - abs(vec2(q) - centre), 0.0, 1.0);
-        float weight = covered.x * covered.y / (1.0 + pow(plane_distance(guide, q, depth), 2.0));
-        if (!(depth > 0.0 && weight > 0.0))
-            continue;
-        mean.sum += weight * (fetch(visibility_trace, q).r - mean.reference);
-        mean.weights += weight;
-    }
-}
-
 float filtered(vec2 centre, Guide guide, ivec2 p)
 {
+    #ifdef AT_TRACE
+    ivec2 start = p;
+#else
     ivec2 start = frame.scale == 1 ? p : nearest_sample(centre, guide);
+#endif
     Mean mean = Mean(fetch(visibility_trace, start).r, 0.0, 0.0);
     if (frame.filter_kind == FILTER_DISC)
         add_disc(mean, guide, centre, p);
@@ -150,17 +90,19 @@ float filtered(vec2 centre, Guide guide, ivec2 p)
 void main()
 {
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+#ifdef AT_TRACE
+    if (any(greaterThanEqual(p, frame.size)))
+        return;
+    float depth = fetch(depth_trace, p).r, result = 1.0;
+    if (depth > 0.0)
+        result = bounded(filtered(vec2(p), guide_trace(p, depth), p));
+#else
     if (any(greaterThanEqual(p, frame.full_size)))
         return;
     float depth = fetch(depth_full, p).r, result = 1.0;
-    if (depth > 0.0) {
-        Guide guide;
-        guide.position = full_ray(vec2(p)) * depth;
-        guide.normal = nook_octahedral_decode(fetch(normal_full, p).xy);
-        guide.footprint = depth * pixel_footprint();
-        vec2 centre = (vec2(p) - float(frame.scale / 2)) / float(frame.scale);
-        result = bounded(filtered(centre, guide, p));
-    }
+    if (depth > 0.0)
+        result = bounded(filtered(trace_centre(p), guide_full(p, depth), p));
+#endif
     imageStore(visibility_out, p, vec4(result));
     add_counts();
 }

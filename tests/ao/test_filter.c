@@ -9,7 +9,15 @@
 #include <stddef.h>
 #include <cmocka.h>
 
-static const char *const scales[] = { "full", "half", "quarter" };
+/* How the trace comes to full size. */
+static const struct way {
+    const char *scale, *upscale;
+    uint32_t factor;
+} ways[] = {
+    { "full", "direct", 1 },    { "half", "direct", 2 },     { "half", "stepped", 2 },
+    { "quarter", "direct", 4 }, { "quarter", "stepped", 4 },
+};
+enum { WAYS = NOOK_COUNT(ways) };
 static const char *const filters[] = { "none", "disc", "tile" };
 static const double facing[3] = { 0, 0, 1 };
 
@@ -35,6 +43,13 @@ static nook_fixture_view *start(void **state, uint32_t width, uint32_t height)
     ao_view_probe(view)->paint = NULL;
     nook_fixture_view_clear(view);
     return view;
+}
+
+static void set_way(nook_fixture_view *view, const struct way *way, const char *filter)
+{
+    ao_view_param(view, "ao.scale", way->scale);
+    ao_view_param(view, "ao.upscale", way->upscale);
+    ao_view_param(view, "ao.filter", filter);
 }
 
 static uint32_t random_bits(uint32_t *state)
@@ -72,10 +87,11 @@ static float paint_constant(const ao_probe *probe, uint32_t x, uint32_t y)
 static void test_filter_gives_a_constant_back_bit_for_bit_and_background_as_one(void **state)
 {
     static const uint32_t sizes[][2] = { { 37, 23 }, { 1, 1 }, { 5, 40 }, { 64, 16 } };
-    for (size_t k = 0; k < NOOK_COUNT(sizes) * 9; k++) {
-        nook_fixture_view *view = start(state, sizes[k / 9][0], sizes[k / 9][1]);
-        ao_view_param(view, "ao.scale", scales[k % 9 / 3]);
-        ao_view_param(view, "ao.filter", filters[k % 3]);
+    for (size_t k = 0; k < NOOK_COUNT(sizes) * WAYS * 3; k++) {
+        const uint32_t *size = sizes[k / (WAYS * 3)];
+        const struct way *way = &ways[k / 3 % WAYS];
+        nook_fixture_view *view = start(state, size[0], size[1]);
+        set_way(view, way, filters[k % 3]);
         draw_clutter(view, (uint32_t)k);
         ao_view_probe(view)->paint = paint_constant;
         for (int step = 0; step < 3; step++) {
@@ -83,7 +99,7 @@ static void test_filter_gives_a_constant_back_bit_for_bit_and_background_as_one(
             ao_view_record(view, "probe");
             for (uint32_t i = 0; i < view->width * view->height; i++) {
                 if (view->visibility[i] != (view->device_depth[i] > 0.0f ? ao_view_probe(view)->painted : 1.0f))
-                    fail_msg("%ux%u, %s, %s, pixel %u: %.9g", view->width, view->height, scales[k % 9 / 3],
+                    fail_msg("%ux%u, %s, %s, %s, pixel %u: %.9g", view->width, view->height, way->scale, way->upscale,
                              filters[k % 3], i, view->visibility[i]);
             }
         }
@@ -98,19 +114,18 @@ static float paint_by_depth(const ao_probe *probe, uint32_t x, uint32_t y)
 
 static void test_filter_leaks_nothing_across_a_step_of_depth(void **state)
 {
-    for (size_t k = 0; k < 9; k++) {
+    for (size_t k = 0; k < WAYS * 3; k++) {
         for (uint32_t edge = 15; edge < 20; edge++) {
             nook_fixture_view *view = start(state, 37, 23);
-            ao_view_param(view, "ao.scale", scales[k / 3]);
-            ao_view_param(view, "ao.filter", filters[k % 3]);
+            set_way(view, &ways[k / 3], filters[k % 3]);
             for (uint32_t i = 0; i < 37 * 23; i++)
                 nook_fixture_view_set_pixel(view, i % 37, i / 37, i % 37 < edge ? 1.0 : 5.0, facing);
             ao_view_probe(view)->paint = paint_by_depth;
             ao_view_record(view, "probe");
             for (uint32_t i = 0; i < 37 * 23; i++) {
                 if (view->visibility[i] != (i % 37 < edge ? 0.0f : 1.0f))
-                    fail_msg("%s, %s, edge %u, pixel (%u, %u): %g", scales[k / 3], filters[k % 3], edge, i % 37, i / 37,
-                             view->visibility[i]);
+                    fail_msg("%s, %s, %s, edge %u, pixel (%u, %u): %g", ways[k / 3].scale, ways[k / 3].upscale,
+                             filters[k % 3], edge, i % 37, i / 37, view->visibility[i]);
             }
         }
     }
@@ -128,10 +143,9 @@ static void test_filter_leaks_nothing_across_a_right_angle(void **state)
 {
     /* An edge towards the camera along the line x = 0, z = -2: two planes at 45 degrees. */
     const double half = sqrt(0.5), left[3] = { -half, 0, half }, right[3] = { half, 0, half };
-    for (size_t k = 0; k < 9; k++) {
+    for (size_t k = 0; k < WAYS * 3; k++) {
         nook_fixture_view *view = start(state, 37, 23);
-        ao_view_param(view, "ao.scale", scales[k / 3]);
-        ao_view_param(view, "ao.filter", filters[k % 3]);
+        set_way(view, &ways[k / 3], filters[k % 3]);
         for (uint32_t i = 0; i < 37 * 23; i++) {
             double ray[3];
             nook_fixture_view_position(view, i % 37, i / 37, 1.0, ray);
@@ -144,8 +158,8 @@ static void test_filter_leaks_nothing_across_a_right_angle(void **state)
             double ray[3];
             nook_fixture_view_position(view, i % 37, i / 37, 1.0, ray);
             if (view->visibility[i] != (ray[0] < 0.0 ? 0.0f : 1.0f))
-                fail_msg("%s, %s, pixel (%u, %u): %g", scales[k / 3], filters[k % 3], i % 37, i / 37,
-                         view->visibility[i]);
+                fail_msg("%s, %s, %s, pixel (%u, %u): %g", ways[k / 3].scale, ways[k / 3].upscale, filters[k % 3],
+                         i % 37, i / 37, view->visibility[i]);
         }
     }
 }
@@ -159,11 +173,10 @@ static float paint_checkers(const ao_probe *probe, uint32_t x, uint32_t y)
 static void test_filter_averages_what_is_around_when_no_sample_is_on_the_surface(void **state)
 {
     /* The trace picks column and row scale / 2 of each block: nothing it saw lies on the first columns. */
-    for (uint32_t k = 0; k < 4; k++) {
-        uint32_t scale = k < 2 ? 2 : 4;
+    for (uint32_t k = 2; k < WAYS * 2; k++) {
+        uint32_t scale = ways[k / 2].factor;
         nook_fixture_view *view = start(state, 48, 32);
-        ao_view_param(view, "ao.scale", scales[scale / 2]);
-        ao_view_param(view, "ao.filter", filters[1 + k % 2]);
+        set_way(view, &ways[k / 2], filters[1 + k % 2]);
         for (uint32_t i = 0; i < 48 * 32; i++)
             nook_fixture_view_set_pixel(view, i % 48, i / 48, i % 48 % scale ? 50.0 : 1.0, facing);
         ao_view_probe(view)->paint = paint_checkers;
@@ -196,9 +209,9 @@ static void test_filter_of_a_ramp_stays_near_it_at_every_scale(void **state)
         nook_fixture_view_set_pixel(view, i % 96, i / 96, -2.0 * n[2] / (n[0] * ray[0] - n[2]), n);
     }
     ao_view_probe(view)->paint = paint_ramp;
-    for (int k = 0; k < 6; k++) {
-        ao_view_param(view, "ao.scale", scales[k / 2]);
-        ao_view_param(view, "ao.filter", filters[1 + k % 2]);
+    for (size_t k = 0; k < WAYS * 2; k++) {
+        const struct way *way = &ways[k / 2];
+        set_way(view, way, filters[1 + k % 2]);
         ao_view_record(view, "probe");
         double worst = 0.0;
         for (uint32_t i = 0; i < 96 * 48; i++) {
@@ -207,8 +220,8 @@ static void test_filter_of_a_ramp_stays_near_it_at_every_scale(void **state)
                 worst = fmax(worst, fabs(view->visibility[i] - x / 96.0) * 96.0);
         }
         /* Samples are whole pixels of the trace: off by half of one at the most, and a little by their uneven number. */
-        if (worst > 0.6 * (1 << k / 2))
-            fail_msg("%s, %s: the ramp is off by %.3f pixels", scales[k / 2], filters[1 + k % 2], worst);
+        if (worst > 0.6 * way->factor)
+            fail_msg("%s, %s, %s: the ramp is off by %.3f pixels", way->scale, way->upscale, filters[1 + k % 2], worst);
     }
 }
 
@@ -235,12 +248,11 @@ static void draw_absurdities(nook_fixture_view *view)
 /* ao_view_record holds every pixel to [0, 1], which NaN is not. */
 static void test_filter_never_writes_nan_whatever_the_buffers_hold(void **state)
 {
-    for (size_t k = 0; k < 18; k++) {
+    for (size_t k = 0; k < WAYS * 6; k++) {
         nook_fixture_view *view = start(state, 37, 23);
-        ao_view_param(view, "ao.scale", scales[k % 9 / 3]);
-        ao_view_param(view, "ao.filter", filters[k % 3]);
+        set_way(view, &ways[k / 3 % WAYS], filters[k % 3]);
         draw_absurdities(view);
-        view->without_normals = k >= 9;
+        view->without_normals = k >= WAYS * 3;
         ao_view_probe(view)->paint = paint_random;
         ao_view_record(view, "probe");
         view->without_normals = 0;
@@ -255,8 +267,7 @@ static void test_techniques_never_write_nan_whatever_the_buffers_hold(void **sta
     nook_fixture_add_box(&mesh, (double[]){ -1, -1, -3 }, (double[]){ 1, 1, -1 }, 63);
     ao_view_add(view, &mesh, 16);
     nook_fixture_mesh_free(&mesh);
-    ao_view_param(view, "ao.scale", "full");
-    ao_view_param(view, "ao.filter", "disc");
+    set_way(view, &ways[0], "disc");
     ao_view_param(view, "gtao.thickness", "0.5");
     for (size_t k = 0; k < NOOK_COUNT(techniques) * 3; k++) {
         nook_ao_set_param(view->ao, "ao.r_max", k % 3 == 0 ? 1e-9 : k % 3 == 1 ? 1.0 : 1e9);
