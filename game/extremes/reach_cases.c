@@ -8,7 +8,8 @@
 #include <string.h>
 
 enum { SIDE = 48, SIDE_QUICK = 24 };
-static const double LOWEST = 1e-9, HIGHEST = 1e9; /* of ao.r_max */
+#define LOWEST 1e-9 /* of ao.r_max */
+#define HIGHEST 1e9
 
 /** The usual scene, with a truth of few shades. */
 static nook_result make_scene(const nook_extremes *extremes, int rays, nook_edge_scene *out_scene)
@@ -57,20 +58,35 @@ static float *take(nook_edge_scene *scene, const char *technique, double r_max, 
 
 /* ---- The limits of the parameter ---- */
 
-static nook_result run_nothing(const nook_extremes *extremes, nook_extreme_found *out_found)
+/** How much a technique darkens what the truth at this reach leaves open. */
+static nook_result compare_with_open(nook_edge_scene *scene, double r_max, nook_extreme_found *found)
 {
     size_t count;
     const nook_ao_technique *const *techniques = nook_techniques(&count);
+    nook_result result;
+    float *truth = take(scene, "reference", r_max, found, &result);
+    for (size_t i = 0; result == NOOK_OK && i < count; i++) {
+        result = record(scene, techniques[i]->name, r_max, found);
+        for (size_t k = 0; result == NOOK_OK && k < scene->pixels; k++) {
+            if (truth[k] == 1.0f)
+                nook_extreme_worst(found, 1.0 - scene->view->visibility[k], "%s, r_max %g, pixel %zu",
+                                   techniques[i]->name, r_max, k);
+        }
+    }
+    free(truth);
+    return result;
+}
+
+static nook_result run_nothing(const nook_extremes *extremes, nook_extreme_found *out_found)
+{
+    static const double reaches[] = { LOWEST, 1e-6, 1e-4, 1e-2 };
     nook_edge_scene scene;
     out_found->bound = 0.0;
     nook_result result = make_scene(extremes, 16, &scene);
     if (result != NOOK_OK)
         return result;
-    for (size_t i = 0; result == NOOK_OK && i < count; i++) {
-        result = record(&scene, techniques[i]->name, LOWEST, out_found);
-        for (size_t k = 0; result == NOOK_OK && k < scene.pixels; k++)
-            nook_extreme_worst(out_found, 1.0 - scene.view->visibility[k], "%s, pixel %zu", techniques[i]->name, k);
-    }
+    for (size_t i = 0; result == NOOK_OK && i < NOOK_COUNT(reaches); i++)
+        result = compare_with_open(&scene, reaches[i], out_found);
     nook_edge_scene_free(&scene);
     return result;
 }
@@ -236,9 +252,9 @@ static nook_result run_better_than_none(const nook_extremes *extremes, nook_extr
         return result;
     const double pixel = pixel_footprint(&scene);
     result = compare_with_none(&scene, scene.diagonal, "the diagonal", out_found);
-    for (int pixels = 4; result == NOOK_OK && pixels * pixel < scene.diagonal; pixels *= 2) {
+    for (double pixels = 1.0; result == NOOK_OK && pixels * pixel < scene.diagonal; pixels *= 2.0) {
         char where[32];
-        snprintf(where, sizeof where, "%d pixels", pixels);
+        snprintf(where, sizeof where, "%g pixels", pixels);
         result = compare_with_none(&scene, pixels * pixel, where, out_found);
         nook_extreme_progress(extremes, log(pixels) / log(scene.diagonal / pixel));
     }
@@ -247,9 +263,9 @@ static nook_result run_better_than_none(const nook_extremes *extremes, nook_extr
 }
 
 static const nook_extreme cases[] = {
-    { .name = "an r_max of 1e-9, the lowest, leaves everything open",
+    { .name = "an r_max of 1e-9, the lowest, to 0.01, part of a pixel, darkens nothing that is open",
       .unit = "A",
-      .why = "Nothing lies within a billionth of a unit: whatever darkens is the pixel's own surface.",
+      .why = "Where 16 rays meet nothing within part of a pixel, whatever darkens is the pixel's own surface.",
       .run = run_nothing },
     { .name = "volume, reference: an r_max from the diagonal to 1e9, the highest, changes no bit",
       .unit = "pixels",
@@ -273,11 +289,12 @@ static const nook_extreme cases[] = {
       .limit =
           "volume: r_max of at least 2 voxels; at one voxel it misses two thirds of the occlusion, below a tenth all.",
       .run = run_two_voxels },
-    { .name = "every technique is nearer to the truth than no occlusion, from 4 pixels to the diagonal",
+    { .name = "every technique is nearer to the truth than no occlusion, from a pixel to the diagonal",
       .unit = "RMSE by RMSE of none",
       .why = "1 is where ambient occlusion does more harm than good.",
-      .limit = "screen space: r_max from 4 pixels to the scene's diagonal; below 3 pixels ssao darkens open floors, "
-               "at 100 diagonals nothing is found.",
+      .limit =
+          "screen space: r_max from a pixel to the scene's diagonal; at half a pixel and at 100 diagonals nothing is "
+          "found.",
       .run = run_better_than_none },
 };
 

@@ -16,11 +16,19 @@ vec3 uniform_direction(int sample_index, int block)
     return vec3(local.xy / radius * sqrt(max(1.0 - z * z, 0.0)), z);
 }
 
+// Whether what hides a point above the receiver's plane is the receiver's own surface. From an eye above the plane the line of sight to
+// such a point stays above it, and so does all that truly hides it; a texel holds its middle's depth for all of it, and beside it a
+// slanted floor would hide its own half ball.
+bool is_own_surface(vec3 hider, vec3 p, vec3 normal)
+{
+    return params.kernel != KERNEL_SPHERE && dot(hider - p, normal) <= params.bias * frame.r_max;
+}
+
 // How much the depth buffer occludes p through `point`.
-float test_point(vec3 p, vec3 point)
+float test_point(vec3 p, vec3 normal, vec3 point)
 {
     Sample s = look_at(point);
-    if (!s.seen || -s.position.z >= -point.z - params.bias * frame.r_max)
+    if (!s.seen || -s.position.z >= -point.z - params.bias * frame.r_max || is_own_surface(s.position, p, normal))
         return 0.0;
     return falloff(distance(s.position, p));
 }
@@ -34,7 +42,8 @@ float occlusion(ivec2 pixel, vec3 p, vec3 normal)
     for (int i = 0; i < params.samples; i++) {
         vec3 local = uniform_direction(i, block);
         float radius = frame.r_max * pow(fract(shift + (float(i) + 0.5) * 0.61803399), 1.0 / 3.0); // uniform in the volume
-        sum += test_point(p, p + radius * (tangent * local.x + bitangent * local.y + normal * local.z));
+        vec3 offset = radius * (tangent * local.x + bitangent * local.y + normal * local.z);
+        sum += test_point(p, normal, p + offset);
     }
     float mean = sum / float(params.samples);
     return params.kernel == KERNEL_SPHERE ? max(2.0 * mean - 1.0, 0.0) : mean;
