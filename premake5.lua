@@ -79,6 +79,7 @@ library("nook_core", c_project, "engine/core", "/**.c")
 library("nook_platform", c_project, "engine/platform", "/**.c")
 library("nook_gpu", c_project, "engine/gpu", "/**.c")
 library("nook_ecs", c_project, "engine/ecs", "/**.c")
+library("nook_physics", c_project, "engine/physics", "/**.c")
 library("nook_gltf", cpp_project, "engine/asset", "/**.cpp") -- the shim around tinygltf, behind a C header
 library("nook_asset", c_project, "engine/asset", "/**.c")
 library("nook_bake", c_project, "modules/bake", "/**.c")
@@ -95,7 +96,7 @@ removefiles { "game/main.c" } -- of nook_game, the last project made
 
 local function link_everything()
   links(libraries)
-  links { "tinygltf", "stb", "embree3", "glfw", "zstd", "xxhash", "z", "bz2", "stdc++", "dl", "m" }
+  links { "tinygltf", "stb", "embree3", "glfw", "ode", "zstd", "xxhash", "z", "bz2", "stdc++", "dl", "m" }
 end
 
 c_project("nook", "ConsoleApp")

@@ -12,6 +12,7 @@
  */
 #pragma once
 #include "engine/core/result.h"
+#include "engine/physics/pose.h"
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -28,12 +29,6 @@ typedef struct nook_physics nook_physics;
 typedef struct nook_body {
     uint32_t id;
 } nook_body;
-
-/** Where a body is. */
-typedef struct nook_pose {
-    double position[3]; /**< Of the body's origin, metres. */
-    double rotation[4]; /**< world from body. */
-} nook_pose;
 
 typedef enum nook_shape_kind {
     NOOK_SHAPE_BOX,      /**< half: half sides. */

@@ -1,0 +1,111 @@
+#include "engine/core/vector.h"
+#include "engine/physics/internal.h"
+
+bool nook_physics_sleeps(const physics_body *body)
+{
+    return body->motion == NOOK_BODY_DYNAMIC && !dBodyIsEnabled(body->ode);
+}
+
+void nook_physics_wake_body(physics_body *body)
+{
+    body->rest_steps = 0;
+    body->rest = body->current;
+    if (body->motion == NOOK_BODY_DYNAMIC)
+        dBodyEnable(body->ode);
+}
+
+void nook_physics_wake_around(nook_physics *physics, uint32_t id)
+{
+    for (uint32_t i = 0; i < physics->contact_count; i++) {
+        const physics_contact *c = &physics->contacts[i];
+        physics_body *other = c->a == id   ? nook_physics_find(physics, (nook_body){ c->b })
+                              : c->b == id ? nook_physics_find(physics, (nook_body){ c->a })
+                                           : NULL;
+        if (other)
+            nook_physics_wake_body(other);
+    }
+}
+
+void nook_physics_wake(nook_physics *physics, nook_body body)
+{
+    physics_body *b = nook_physics_find(physics, body);
+    if (b)
+        nook_physics_wake_body(b);
+}
+
+bool nook_physics_asleep(const nook_physics *physics, nook_body body)
+{
+    const physics_body *b = nook_physics_find(physics, body);
+    return b && nook_physics_sleeps(b);
+}
+
+/* ---- who may sleep ---- */
+
+static bool near_rest(const physics_body *body)
+{
+    double way[3], turn[3];
+    nook_vector_add_scaled(body->current.position, -1.0, body->rest.position, way);
+    nook_pose_turn_rate(body->rest.rotation, body->current.rotation, 1.0, turn);
+    return nook_vector_length(way) <= nook_physics_tuning.sleep_metres &&
+           nook_vector_length(turn) <= nook_physics_tuning.sleep_radians;
+}
+
+/* Islands as a forest over bodies that touch: each points at another of its island, the root at itself. */
+static uint32_t root_of(nook_physics *p, uint32_t index)
+{
+    while (p->bodies[index]->island != index) {
+        uint32_t next = p->bodies[index]->island;
+        p->bodies[index]->island = p->bodies[next]->island;
+        index = next;
+    }
+    return index;
+}
+
+/* What rests on a mover that moved is not at rest, and keeps its island awake. */
+static void join_islands(nook_physics *p)
+{
+    for (uint32_t i = p->kept_count; i < p->contact_count; i++) {
+        physics_body *a = nook_physics_find(p, (nook_body){ p->contacts[i].a });
+        physics_body *b = nook_physics_find(p, (nook_body){ p->contacts[i].b });
+        if (b->motion == NOOK_BODY_DYNAMIC)
+            p->bodies[root_of(p, a->island)]->island = root_of(p, b->island);
+        else if (b->activity != PHYSICS_RESTS)
+            a->rest_steps = 0;
+    }
+}
+
+static void fall_asleep(physics_body *body)
+{
+    dBodySetLinearVel(body->ode, 0, 0, 0);
+    dBodySetAngularVel(body->ode, 0, 0, 0);
+    dBodyDisable(body->ode);
+}
+
+static bool is_awake(const physics_body *body)
+{
+    return body->motion == NOOK_BODY_DYNAMIC && dBodyIsEnabled(body->ode);
+}
+
+void nook_physics_settle(nook_physics *physics)
+{
+    const uint32_t enough = (uint32_t)(nook_physics_tuning.sleep_seconds / NOOK_PHYSICS_STEP);
+    for (uint32_t i = 0; i < physics->body_count; i++) {
+        physics_body *body = physics->bodies[i];
+        body->island = i;
+        if (!is_awake(body))
+            continue;
+        if (near_rest(body))
+            body->rest_steps++;
+        else
+            body->rest = body->current, body->rest_steps = 0;
+    }
+    join_islands(physics);
+    for (uint32_t i = 0; i < physics->body_count; i++) { /* an island sleeps no sooner than its last member */
+        physics_body *body = physics->bodies[i], *root = physics->bodies[root_of(physics, i)];
+        if (is_awake(body) && body->rest_steps < root->rest_steps)
+            root->rest_steps = body->rest_steps;
+    }
+    for (uint32_t i = 0; i < physics->body_count; i++)
+        if (is_awake(physics->bodies[i]) && physics->bodies[root_of(physics, i)]->rest_steps >= enough)
+            fall_asleep(physics->bodies[i]);
+}
