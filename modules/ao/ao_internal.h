@@ -40,14 +40,30 @@ typedef struct ao_counts {
     uint32_t fetches_low, fetches_high, outside;
 } ao_counts;
 
-/** Textures at the host's size and at the trace's. The trace's are the full ones at scale 1. */
+/** Textures at the trace's size. */
+typedef struct ao_trace {
+    nook_texture visibility;    /**< id 0 before the scale was used. */
+    nook_texture filtered;      /**< id 0 until a stepped upscaling needs it. */
+    nook_texture depth, normal; /**< id 0 at scale 1, where the full ones are taken. */
+    int holds_view;             /**< Depth and normal were picked from those of the full size that are there now. */
+} ao_trace;
+
+enum { AO_SCALES = 3 /* 1, 2, 4 */ };
+
+/** Textures at the host's size and at the traces'. Those of a scale stay: views of several scales take turns in every frame. */
 typedef struct ao_targets {
-    nook_texture depth, normal, visibility;                   /**< Full size. */
-    nook_texture trace_depth, trace_normal, trace_visibility; /**< Trace size; depth and normal id 0 at scale 1. */
-    nook_texture trace_filtered; /**< Trace size; id 0 until a stepped upscaling needs it. */
-    uint32_t width, height;      /**< Of the full-size ones; 0 before there are any. */
-    uint32_t scale;              /**< Of the trace's; 0 before there are any. */
+    nook_texture depth, normal, visibility; /**< Full size. */
+    ao_trace traces[AO_SCALES];             /**< Of scale 1 << index. */
+    uint32_t width, height;                 /**< Of the full-size ones; 0 before there are any. */
+    int holds_view;                         /**< Depth and normal are those of the last record's frame. */
 } ao_targets;
+
+/** What of the picture a record computes: begin[] to end[] - 1. */
+typedef struct ao_region {
+    int32_t full_begin[2], full_end[2]; /**< Full-size pixels. */
+    int32_t begin[2], end[2]; /**< Trace pixels: those above, and what filter and upscaling read around them. */
+    int32_t origin[2];        /**< begin, rounded down to whole groups. */
+} ao_region;
 
 struct nook_ao {
     nook_gpu *gpu;
@@ -68,14 +84,25 @@ struct nook_ao {
     nook_ao_mesh_instance *instances; /**< Scratch of occluder_max. */
     nook_ao_mesh_view *mesh_views;    /**< Scratch of mesh_capacity. */
     nook_ao_statistics statistics;
+    ao_region recorded; /**< By the last record. */
+    uint32_t scale;     /**< Of the last record: its exponent. */
 };
 
-/** Makes the textures fit width, height and scale; keeps them when they do. @return NOOK_E_MEMORY, NOOK_E_DEVICE */
+/**
+ * Makes the textures fit width, height and a scale; keeps them when they do.
+ * @param scale  0, 1, 2: its exponent
+ * @return NOOK_E_MEMORY, NOOK_E_DEVICE
+ */
 nook_result ao_targets_fit(nook_gpu *gpu, ao_targets *targets, uint32_t width, uint32_t height, uint32_t scale);
-/** Makes trace_filtered, unless it is there. @return NOOK_E_MEMORY */
-nook_result ao_targets_fit_filtered(nook_gpu *gpu, ao_targets *targets);
+/** Makes the filtered texture of a trace that has been fitted, unless it is there. @return NOOK_E_MEMORY */
+nook_result ao_trace_fit_filtered(nook_gpu *gpu, ao_trace *trace);
 void ao_targets_release(nook_gpu *gpu, ao_targets *targets);
-uint64_t ao_targets_bytes(const ao_targets *targets); /**< As they are now. */
+uint64_t ao_targets_bytes(const ao_targets *targets, uint32_t scale); /**< Those that a record of that scale uses. */
+
+/** @return NOOK_E_RANGE a part that leaves the picture */
+nook_result ao_region_check(const nook_ao *ao, const nook_ao_rectangle *part);
+/** @param scale 1, 2, 4 @param passes  after the trace, that read pixels around: 0, 1 filter, 2 filter and upscaling */
+ao_region ao_region_make(const nook_ao *ao, const nook_ao_rectangle *part, uint32_t scale, int32_t passes);
 
 /**
  * How far distances read from the host's depth may be off, from its format: out_error[0] * z + out_error[1] * z^2 metres at z metres.

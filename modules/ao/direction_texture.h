@@ -7,7 +7,8 @@ extern "C" {
 #endif
 
 typedef struct nook_direction_texture {
-    nook_texture texture;
+    nook_texture texture; /**< As wide as the most rays so far. */
+    float *values;        /**< Owned: room for as many, to upload from. */
     uint32_t rays, seed;
 } nook_direction_texture;
 

@@ -21,4 +21,8 @@ typedef struct frame_block {
     int32_t filter_kind;
     int32_t padding[2];        /**< A vec4 starts at a multiple of 16 bytes. */
     float view_from_world[12]; /**< Three columns of four. */
+    int32_t origin[2];         /**< Trace pixel of a dispatch's first invocation. */
+    int32_t begin[2], end[2];  /**< Trace pixels that are wanted. */
+    int32_t full_begin[2], full_end[2];
+    int32_t padding_end[2]; /**< A block's size is a multiple of 16 bytes. */
 } frame_block;

@@ -20,7 +20,7 @@
 extern "C" {
 #endif
 
-#define NOOK_AO_VERSION 1
+#define NOOK_AO_VERSION 2
 
 typedef struct nook_ao nook_ao; /**< One per device and view. */
 typedef struct nook_ao_volume {
@@ -39,6 +39,11 @@ typedef struct nook_ao_texture {
     uint32_t native;
     uint32_t width, height; /**< Pixels. */
 } nook_ao_texture;
+
+/** A part of the picture, pixels; row 0 is at the bottom. All zero: the whole picture. */
+typedef struct nook_ao_rectangle {
+    uint32_t x, y, width, height;
+} nook_ao_rectangle;
 
 typedef struct nook_ao_desc {
     uint32_t version;       /**< NOOK_AO_VERSION. */
@@ -59,6 +64,8 @@ typedef struct nook_ao_occluder {
     double world_from_mesh[16];
 } nook_ao_occluder;
 
+enum { NOOK_AO_FETCH_UNITS = 16 };
+
 typedef struct nook_ao_frame {
     double view_from_world[16]; /**< Rigid: to 1e-5. */
     double clip_from_view[16];  /**< Perspective, depth in [0, 1]; normal or reversed-Z is told from it. */
@@ -66,6 +73,14 @@ typedef struct nook_ao_frame {
     nook_ao_texture normal; /**< World space, octahedral RG (shaders/nook/octahedral.glsl). None: rebuilt from depth.
                                  Give the geometric normal: rays below the true surface are nobody's occlusion. */
     uint32_t index;         /**< Seeds the noise. Same index, same pixels. */
+    /** Only its visibility is computed, bit for bit as in a record of the whole picture; what lies outside stays as it was. So
+        several techniques can share one picture. Must lie inside. */
+    nook_ao_rectangle part;
+    /** 1: depth, normals and both matrices are those of the last record, which are not read again. */
+    int same_view;
+    /** R32UI of the full size, cleared by the host; none: not counted. NOOK_AO_FETCH_UNITS for every texture fetch of a pixel are
+        added to it; those of a pixel of a coarser trace are shared out to the full-size pixels that it stands for. Slower. */
+    nook_ao_texture fetches;
 } nook_ao_frame;
 
 /** @return NOOK_E_ARG, NOOK_E_VERSION, NOOK_E_MEMORY or NOOK_E_DEVICE; *out_ao is NULL on failure. */
@@ -127,18 +142,18 @@ nook_result nook_ao_submit_occluders(nook_ao *ao, const nook_ao_occluder *occlud
 
 /**
  * Records prepare, trace, filter and upscale.
- * @return NOOK_E_ARG; NOOK_E_MEMORY; NOOK_E_DEVICE: also when GL raised an error meanwhile, and then the visibility is undefined.
+ * @return NOOK_E_ARG; NOOK_E_RANGE a part that leaves the picture; NOOK_E_MEMORY; NOOK_E_DEVICE: also when GL raised an error meanwhile, and then the visibility is undefined.
  *         Errors that GL held before are logged and forgotten.
  */
 nook_result nook_ao_record(nook_ao *ao, const nook_ao_frame *frame);
 
-/** Full-resolution R32F visibility of the last record; 1 where there is no geometry. Valid until set_size or destroy. */
+/** Full-resolution R32F visibility of the last records; 1 where there is no geometry. Undefined where nothing was recorded yet. Valid until set_size or destroy. */
 nook_ao_texture nook_ao_visibility(const nook_ao *ao);
 
 /** What the last record counted. */
 typedef struct nook_ao_statistics {
     /** Texture fetches of the whole record (prepare, trace, filter, upscaling; depth, normals, directions, volumes, visibility), also
-        those for pixels without geometry, per full-size pixel with geometry. One of a volume with trilinear filtering counts as
+        those for pixels without geometry, per full-size pixel with geometry in the recorded part. One of a volume with trilinear filtering counts as
         one like any other; loads of images and buffers count nothing. Needs ao.count = 1, else 0; 0 for the reference. */
     double fetches_per_pixel;
     /** Visibilities that the trace or the filter computed as NaN, or further outside of [0, 1] than 1e-5, before they were clamped:
@@ -147,7 +162,8 @@ typedef struct nook_ao_statistics {
     uint32_t occluders;    /**< Marched this frame. */
     uint64_t volume_bytes; /**< On the GPU. */
     uint64_t
-        texture_bytes; /**< Of the frame's textures: depth, normals and visibility at the host's size and the trace's. */
+        texture_bytes; /**< Of the last record's textures: depth, normals and visibility at the host's size and the trace's. Those of
+                            other scales are kept besides, once used. */
 } nook_ao_statistics;
 void nook_ao_get_statistics(nook_ao *ao, nook_ao_statistics *out_statistics); /**< Waits for the GPU. */
 

@@ -7,8 +7,10 @@
 #include <string.h>
 
 _Static_assert(offsetof(frame_block, view_from_world) == 96, "std140 places view_from_world at 96");
+_Static_assert(offsetof(frame_block, origin) == 144 && sizeof(frame_block) == 192, "std140 places origin at 144");
 
-enum { BINDING_COUNTER = 7 };
+enum { BINDING_COUNTER = 7, BINDING_FETCHES = 2 };
+enum { COUNT_SUMS = 1, COUNT_PIXELS = 2 }; /* shaders/ao/counter.glsl */
 
 static const double RIGID_TOLERANCE = 1e-5; /* what a product of a few matrices in float leaves */
 
@@ -19,10 +21,10 @@ static nook_texture host_texture(nook_ao_texture texture)
     };
 }
 
-/** 1, 2 or 4; truth is always traced at full size. */
+/** Exponent of 1, 2 or 4; truth is always traced at full size. */
 static uint32_t trace_scale(const nook_ao *ao, const nook_ao_technique *technique)
 {
-    return technique->exact ? 1u : 1u << ao->shared.scale;
+    return technique->exact ? 0u : (uint32_t)ao->shared.scale;
 }
 
 static int all_finite(const double m[16])
@@ -57,13 +59,16 @@ static nook_result check_frame(const nook_ao *ao, const nook_ao_frame *frame)
     if (frame->normal.native && (frame->normal.width != ao->width || frame->normal.height != ao->height))
         return nook_fail(NOOK_E_ARG, "nook_ao_record: normals are %ux%u, the context %ux%u", frame->normal.width,
                          frame->normal.height, ao->width, ao->height);
+    if (frame->fetches.native && (frame->fetches.width != ao->width || frame->fetches.height != ao->height))
+        return nook_fail(NOOK_E_ARG, "nook_ao_record: the texture of fetches is %ux%u, the context %ux%u",
+                         frame->fetches.width, frame->fetches.height, ao->width, ao->height);
     if (!all_finite(p) || !all_finite(frame->view_from_world))
         return nook_fail(NOOK_E_ARG, "nook_ao_record: clip_from_view or view_from_world is not finite");
     if (!is_rigid(frame->view_from_world))
         return nook_fail(NOOK_E_ARG, "nook_ao_record: view_from_world is not rigid; scale the world, not the camera");
     if (p[11] != -1.0 || p[15] != 0.0 || !(fabs(p[0]) > 0.0) || !(fabs(p[5]) > 0.0) || p[14] == 0.0)
         return nook_fail(NOOK_E_ARG, "nook_ao_record: clip_from_view is not a perspective with w = -z");
-    return NOOK_OK;
+    return ao_region_check(ao, &frame->part);
 }
 
 /**
@@ -83,9 +88,11 @@ static void set_projection(const double p[16], frame_block *block)
     block->depth_to_distance[1] = (float)(p[10] + (double)block->depth_background);
 }
 
-static frame_block make_block(const nook_ao *ao, const nook_ao_frame *frame, uint32_t scale, int counting)
+static frame_block make_block(const nook_ao *ao, const nook_ao_frame *frame, int counting)
 {
     const ao_shared *shared = &ao->shared;
+    const ao_region *region = &ao->recorded;
+    const uint32_t scale = 1u << ao->scale;
     frame_block block = {
         .size = { (int32_t)nook_groups(ao->width, scale), (int32_t)nook_groups(ao->height, scale) },
         .full_size = { (int32_t)ao->width, (int32_t)ao->height },
@@ -100,6 +107,11 @@ static frame_block make_block(const nook_ao *ao, const nook_ao_frame *frame, uin
         .filter_normal = shared->filter_normal,
         .has_normal = frame->normal.native != 0,
         .filter_kind = shared->filter,
+        .origin = { region->origin[0], region->origin[1] },
+        .begin = { region->begin[0], region->begin[1] },
+        .end = { region->end[0], region->end[1] },
+        .full_begin = { region->full_begin[0], region->full_begin[1] },
+        .full_end = { region->full_end[0], region->full_end[1] },
     };
     set_projection(frame->clip_from_view, &block);
     for (int column = 0; column < 3; column++) {
@@ -133,59 +145,92 @@ static nook_result dispatch_prepare(nook_ao *ao, const nook_ao_frame *frame)
 static nook_result dispatch_pick(nook_ao *ao)
 {
     const ao_targets *targets = &ao->targets;
+    const ao_trace *trace = &targets->traces[ao->scale];
     nook_bind_texture(ao->gpu, 0, targets->depth);
     nook_bind_texture(ao->gpu, 1, targets->normal);
-    nook_bind_image(ao->gpu, 0, targets->trace_depth, GL_WRITE_ONLY);
-    nook_bind_image(ao->gpu, 1, targets->trace_normal, GL_WRITE_ONLY);
-    return dispatch_over(ao, "shaders/ao/pick.comp.glsl", "", targets->trace_depth.width, targets->trace_depth.height);
+    nook_bind_image(ao->gpu, 0, trace->depth, GL_WRITE_ONLY);
+    nook_bind_image(ao->gpu, 1, trace->normal, GL_WRITE_ONLY);
+    return dispatch_over(ao, "shaders/ao/pick.comp.glsl", "", trace->depth.width, trace->depth.height);
+}
+
+/** Depth and normals of the whole picture: techniques look beyond the part that is recorded. */
+static nook_result fill_inputs(nook_ao *ao, const nook_ao_frame *frame)
+{
+    ao_targets *targets = &ao->targets;
+    ao_trace *trace = &targets->traces[ao->scale];
+    nook_result result = NOOK_OK;
+    if (!frame->same_view || !targets->holds_view) {
+        for (int i = 0; i < AO_SCALES; i++)
+            targets->traces[i].holds_view = 0;
+        result = dispatch_prepare(ao, frame);
+        targets->holds_view = result == NOOK_OK;
+    }
+    if (result == NOOK_OK && ao->scale > 0 && !trace->holds_view) {
+        result = dispatch_pick(ao);
+        trace->holds_view = result == NOOK_OK;
+    }
+    return result;
 }
 
 /** What guide.glsl binds; `samples` of the trace's visibility. */
 static void bind_guides(nook_ao *ao, nook_texture samples, nook_texture out)
 {
     const ao_targets *targets = &ao->targets;
+    const ao_trace *trace = &targets->traces[ao->scale];
     nook_bind_texture(ao->gpu, 0, targets->depth);
     nook_bind_texture(ao->gpu, 1, targets->normal);
-    nook_bind_texture(ao->gpu, 2, targets->scale > 1 ? targets->trace_depth : targets->depth);
-    nook_bind_texture(ao->gpu, 3, targets->scale > 1 ? targets->trace_normal : targets->normal);
+    nook_bind_texture(ao->gpu, 2, ao->scale > 0 ? trace->depth : targets->depth);
+    nook_bind_texture(ao->gpu, 3, ao->scale > 0 ? trace->normal : targets->normal);
     nook_bind_texture(ao->gpu, 4, samples);
     nook_bind_image(ao->gpu, 0, out, GL_WRITE_ONLY);
 }
 
+/** Runs a shader that writes the wanted pixels of the picture. */
+static nook_result dispatch_full(nook_ao *ao, const char *path)
+{
+    const ao_region *region = &ao->recorded;
+    return dispatch_over(ao, path, "", (uint32_t)(region->full_end[0] - region->full_begin[0]),
+                         (uint32_t)(region->full_end[1] - region->full_begin[1]));
+}
+
 static nook_result filter_direct(nook_ao *ao)
 {
-    bind_guides(ao, ao->targets.trace_visibility, ao->targets.visibility);
-    return dispatch_over(ao, "shaders/ao/filter.comp.glsl", "", ao->width, ao->height);
+    bind_guides(ao, ao->targets.traces[ao->scale].visibility, ao->targets.visibility);
+    return dispatch_full(ao, "shaders/ao/filter.comp.glsl");
 }
 
 /** Where the picture has 4 or 16 times the pixels of the trace, most of the filter's work is done once for all of them. */
 static nook_result filter_stepped(nook_ao *ao)
 {
-    ao_targets *targets = &ao->targets;
-    nook_texture samples = targets->trace_visibility;
+    ao_trace *trace = &ao->targets.traces[ao->scale];
+    const ao_region *region = &ao->recorded;
+    nook_texture samples = trace->visibility;
     nook_result result = NOOK_OK;
     if (ao->shared.filter != 0) {
-        result = ao_targets_fit_filtered(ao->gpu, targets);
+        result = ao_trace_fit_filtered(ao->gpu, trace);
         if (result != NOOK_OK)
             return result;
-        bind_guides(ao, samples, targets->trace_filtered);
-        result = dispatch_over(ao, "shaders/ao/filter.comp.glsl", "#define AT_TRACE\n", samples.width, samples.height);
-        samples = targets->trace_filtered;
+        bind_guides(ao, samples, trace->filtered);
+        result =
+            dispatch_over(ao, "shaders/ao/filter.comp.glsl", "#define AT_TRACE\n",
+                          (uint32_t)(region->end[0] - region->begin[0]), (uint32_t)(region->end[1] - region->begin[1]));
+        samples = trace->filtered;
     }
     if (result != NOOK_OK)
         return result;
-    bind_guides(ao, samples, targets->visibility);
-    return dispatch_over(ao, "shaders/ao/upscale.comp.glsl", "", ao->width, ao->height);
+    bind_guides(ao, samples, ao->targets.visibility);
+    return dispatch_full(ao, "shaders/ao/upscale.comp.glsl");
 }
 
-static nook_result upload_inputs(nook_ao *ao, const ao_slot *slot, const nook_ao_frame *frame, uint32_t scale)
+static nook_result upload_inputs(nook_ao *ao, const ao_slot *slot, const nook_ao_frame *frame)
 {
     static const ao_counts zero = { 0 };
     nook_result result = volume_atlas_flush(&ao->atlas);
     if (result != NOOK_OK)
         return result;
-    int counting = ao->shared.count && !slot->technique->exact; /* truth reads nothing of the kind */
-    frame_block block = make_block(ao, frame, scale, counting);
+    int counting = slot->technique->exact ? 0 /* truth reads nothing of the kind */
+                                          : ao->shared.count * COUNT_SUMS + (frame->fetches.native != 0) * COUNT_PIXELS;
+    frame_block block = make_block(ao, frame, counting);
     nook_buffer_update(ao->gpu, ao->frame, 0, &block, sizeof block);
     nook_buffer_update(ao->gpu, ao->counter, 0, &zero, sizeof zero);
     if (slot->technique->params_size)
@@ -200,20 +245,25 @@ static nook_ao_pass make_pass(nook_ao *ao, const ao_slot *slot, const nook_ao_fr
                               int direct)
 {
     const ao_targets *targets = &ao->targets;
-    int full = targets->scale == 1;
+    const ao_trace *trace = &targets->traces[ao->scale];
+    const ao_region *region = &ao->recorded;
+    int full = ao->scale == 0;
     frame_block projection = { 0 };
     set_projection(frame->clip_from_view, &projection);
     return (nook_ao_pass){
         .gpu = ao->gpu,
-        .depth = full ? targets->depth : targets->trace_depth,
-        .normal = full ? targets->normal : targets->trace_normal,
-        .visibility = direct ? targets->visibility : targets->trace_visibility,
+        .depth = full ? targets->depth : trace->depth,
+        .normal = full ? targets->normal : trace->normal,
+        .visibility = direct ? targets->visibility : trace->visibility,
         .frame = ao->frame,
         .params = slot->buffer,
         .counter = ao->counter,
         .counting = ao->shared.count,
-        .width = targets->trace_visibility.width,
-        .height = targets->trace_visibility.height,
+        .width = trace->visibility.width,
+        .height = trace->visibility.height,
+        .begin = { (uint32_t)region->begin[0], (uint32_t)region->begin[1] },
+        .end = { (uint32_t)region->end[0], (uint32_t)region->end[1] },
+        .origin = { (uint32_t)region->origin[0], (uint32_t)region->origin[1] },
         .r_max = ao->shared.r_max,
         .falloff = ao->shared.falloff,
         .falloff_tau = ao->shared.falloff_tau,
@@ -252,21 +302,27 @@ nook_result nook_ao_record(nook_ao *ao, const nook_ao_frame *frame)
     nook_gpu_check(ao->gpu, "what was done before nook_ao_record"); /* the host's errors are not ours */
     const ao_slot *slot = &ao->slots[ao->current];
     const nook_ao_technique *technique = slot->technique;
-    uint32_t scale = trace_scale(ao, technique), instances = 0;
-    int direct = scale == 1 && (technique->exact || ao->shared.filter == 0);
+    uint32_t instances = 0;
+    ao->scale = trace_scale(ao, technique);
+    int direct = ao->scale == 0 && (technique->exact || ao->shared.filter == 0);
+    int stepped = ao->scale > 0 && ao->shared.upscale;
+    ao->recorded = ao_region_make(ao, &frame->part, 1u << ao->scale, direct ? 0 : 1 + stepped);
     nook_matrix view_from_world;
     memcpy(view_from_world.m, frame->view_from_world, sizeof view_from_world.m);
     ao->statistics.occluders = technique->inputs & NOOK_AO_IN_VOLUMES ? ao_collect_volumes(ao, &view_from_world) : 0;
     if (technique->inputs & NOOK_AO_IN_MESHES)
         instances = ao_collect_meshes(ao, &view_from_world);
 
-    result = ao_targets_fit(ao->gpu, &ao->targets, ao->width, ao->height, scale);
+    if (frame->fetches.native) {
+        nook_texture fetches = host_texture(frame->fetches);
+        fetches.format = GL_R32UI;
+        nook_bind_image(ao->gpu, BINDING_FETCHES, fetches, GL_READ_WRITE);
+    }
+    result = ao_targets_fit(ao->gpu, &ao->targets, ao->width, ao->height, ao->scale);
     if (result == NOOK_OK)
-        result = upload_inputs(ao, slot, frame, scale);
+        result = upload_inputs(ao, slot, frame);
     if (result == NOOK_OK)
-        result = dispatch_prepare(ao, frame);
-    if (result == NOOK_OK && scale > 1)
-        result = dispatch_pick(ao);
+        result = fill_inputs(ao, frame);
     if (result != NOOK_OK)
         return result;
     nook_ao_pass pass = make_pass(ao, slot, frame, instances, direct);
@@ -275,23 +331,26 @@ nook_result nook_ao_record(nook_ao *ao, const nook_ao_frame *frame)
     bind_pass(&pass);
     result = technique->record(slot->state, slot->params, &pass);
     if (result == NOOK_OK && !direct)
-        result = scale > 1 && ao->shared.upscale ? filter_stepped(ao) : filter_direct(ao);
+        result = stepped ? filter_stepped(ao) : filter_direct(ao);
     if (nook_gpu_check(ao->gpu, "nook_ao_record") && result == NOOK_OK)
         result = NOOK_E_DEVICE; /* the check has logged what it was */
     return result;
 }
 
-/** Full-size pixels with geometry. */
+/** Full-size pixels with geometry in the recorded part. */
 static uint64_t count_geometry(nook_ao *ao)
 {
+    const ao_region *region = &ao->recorded;
     size_t count = (size_t)ao->targets.width * ao->targets.height;
     uint64_t seen = 0;
     float *depth = count ? malloc(count * sizeof *depth) : NULL;
     if (!depth)
         return 0;
     nook_texture_read(ao->gpu, ao->targets.depth, GL_RED, GL_FLOAT, depth, count * sizeof *depth);
-    for (size_t i = 0; i < count; i++)
-        seen += depth[i] > 0.0f;
+    for (size_t y = (size_t)region->full_begin[1]; y < (size_t)region->full_end[1]; y++) {
+        for (size_t x = (size_t)region->full_begin[0]; x < (size_t)region->full_end[0]; x++)
+            seen += depth[y * ao->targets.width + x] > 0.0f;
+    }
     free(depth);
     return seen;
 }
@@ -301,7 +360,7 @@ void nook_ao_get_statistics(nook_ao *ao, nook_ao_statistics *out_statistics)
     ao_counts counted;
     *out_statistics = ao->statistics;
     out_statistics->volume_bytes = volume_atlas_bytes(&ao->atlas);
-    out_statistics->texture_bytes = ao_targets_bytes(&ao->targets);
+    out_statistics->texture_bytes = ao_targets_bytes(&ao->targets, ao->scale);
     out_statistics->fetches_per_pixel = 0.0;
     out_statistics->outside = 0;
     if (!ao->shared.count)

@@ -1,17 +1,18 @@
 #include "modules/ao/ao_internal.h"
 
-static void destroy_trace(nook_gpu *gpu, ao_targets *targets)
+static void destroy_trace(nook_gpu *gpu, ao_trace *trace)
 {
-    nook_texture_destroy(gpu, &targets->trace_depth);
-    nook_texture_destroy(gpu, &targets->trace_normal);
-    nook_texture_destroy(gpu, &targets->trace_visibility);
-    nook_texture_destroy(gpu, &targets->trace_filtered);
-    targets->scale = 0;
+    nook_texture_destroy(gpu, &trace->depth);
+    nook_texture_destroy(gpu, &trace->normal);
+    nook_texture_destroy(gpu, &trace->visibility);
+    nook_texture_destroy(gpu, &trace->filtered);
+    *trace = (ao_trace){ 0 };
 }
 
 void ao_targets_release(nook_gpu *gpu, ao_targets *targets)
 {
-    destroy_trace(gpu, targets);
+    for (int i = 0; i < AO_SCALES; i++)
+        destroy_trace(gpu, &targets->traces[i]);
     nook_texture_destroy(gpu, &targets->depth);
     nook_texture_destroy(gpu, &targets->normal);
     nook_texture_destroy(gpu, &targets->visibility);
@@ -42,14 +43,13 @@ static nook_result fit_full(nook_gpu *gpu, ao_targets *targets, uint32_t width, 
 /** Apart from the full-size ones, so that the host's visibility keeps its name when only the scale changes. */
 static nook_result fit_trace(nook_gpu *gpu, ao_targets *targets, uint32_t scale)
 {
-    if (targets->scale == scale)
+    ao_trace *trace = &targets->traces[scale];
+    if (trace->visibility.id)
         return NOOK_OK;
-    destroy_trace(gpu, targets);
-    uint32_t width = nook_groups(targets->width, scale), height = nook_groups(targets->height, scale);
-    nook_result result = nook_texture_create_2d(gpu, GL_R32F, width, height, GL_NEAREST, &targets->trace_visibility);
-    if (result == NOOK_OK && scale > 1)
-        result = create_inputs(gpu, width, height, &targets->trace_depth, &targets->trace_normal);
-    targets->scale = scale;
+    uint32_t width = nook_groups(targets->width, 1u << scale), height = nook_groups(targets->height, 1u << scale);
+    nook_result result = nook_texture_create_2d(gpu, GL_R32F, width, height, GL_NEAREST, &trace->visibility);
+    if (result == NOOK_OK && scale > 0)
+        result = create_inputs(gpu, width, height, &trace->depth, &trace->normal);
     return result;
 }
 
@@ -63,12 +63,12 @@ nook_result ao_targets_fit(nook_gpu *gpu, ao_targets *targets, uint32_t width, u
     return result;
 }
 
-nook_result ao_targets_fit_filtered(nook_gpu *gpu, ao_targets *targets)
+nook_result ao_trace_fit_filtered(nook_gpu *gpu, ao_trace *trace)
 {
-    if (targets->trace_filtered.id)
+    if (trace->filtered.id)
         return NOOK_OK;
-    const nook_texture *like = &targets->trace_visibility;
-    return nook_texture_create_2d(gpu, GL_R32F, like->width, like->height, GL_NEAREST, &targets->trace_filtered);
+    return nook_texture_create_2d(gpu, GL_R32F, trace->visibility.width, trace->visibility.height, GL_NEAREST,
+                                  &trace->filtered);
 }
 
 static uint64_t pixels(const nook_texture *texture)
@@ -76,11 +76,11 @@ static uint64_t pixels(const nook_texture *texture)
     return (uint64_t)texture->width * texture->height; /* 0 for those that are not there */
 }
 
-uint64_t ao_targets_bytes(const ao_targets *targets)
+uint64_t ao_targets_bytes(const ao_targets *targets, uint32_t scale)
 {
+    const ao_trace *trace = &targets->traces[scale];
     enum { DEPTH_BYTES = 4, NORMAL_BYTES = 4, VISIBILITY_BYTES = 4 }; /* R32F, RG16, R32F */
-    return DEPTH_BYTES * (pixels(&targets->depth) + pixels(&targets->trace_depth)) +
-           NORMAL_BYTES * (pixels(&targets->normal) + pixels(&targets->trace_normal)) +
-           VISIBILITY_BYTES *
-               (pixels(&targets->visibility) + pixels(&targets->trace_visibility) + pixels(&targets->trace_filtered));
+    return DEPTH_BYTES * (pixels(&targets->depth) + pixels(&trace->depth)) +
+           NORMAL_BYTES * (pixels(&targets->normal) + pixels(&trace->normal)) +
+           VISIBILITY_BYTES * (pixels(&targets->visibility) + pixels(&trace->visibility) + pixels(&trace->filtered));
 }

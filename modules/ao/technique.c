@@ -3,12 +3,25 @@
 
 enum { LOCATION_PART = 0 };
 
+void nook_ao_pass_groups(const nook_ao_pass *pass, uint32_t local_x, uint32_t local_y, uint32_t out_groups[2])
+{
+    out_groups[0] = nook_groups(pass->end[0] - pass->origin[0], local_x);
+    out_groups[1] = nook_groups(pass->end[1] - pass->origin[1], local_y);
+}
+
+static void dispatch(const nook_ao_pass *pass, nook_program program, uint32_t local_x, uint32_t local_y)
+{
+    uint32_t groups[2];
+    nook_ao_pass_groups(pass, local_x, local_y, groups);
+    nook_dispatch(pass->gpu, program, groups[0], groups[1], 1);
+}
+
 nook_result nook_ao_pass_dispatch(const nook_ao_pass *pass, const char *shader_path, uint32_t local_x, uint32_t local_y)
 {
     nook_program program;
     nook_result result = nook_program_compute(pass->gpu, shader_path, "", &program);
     if (result == NOOK_OK)
-        nook_dispatch(pass->gpu, program, nook_groups(pass->width, local_x), nook_groups(pass->height, local_y), 1);
+        dispatch(pass, program, local_x, local_y);
     return result;
 }
 
@@ -24,7 +37,7 @@ nook_result nook_ao_pass_dispatch_parts(const nook_ao_pass *pass, const char *sh
     for (int32_t first = 0; first < count; first += items) {
         const GLint part[2] = { first, count - first < items ? count : first + items };
         pass->gpu->gl->ProgramUniform2iv(program.id, LOCATION_PART, 1, part);
-        nook_dispatch(pass->gpu, program, nook_groups(pass->width, local_x), nook_groups(pass->height, local_y), 1);
+        dispatch(pass, program, local_x, local_y);
     }
     return NOOK_OK;
 }

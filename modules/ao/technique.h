@@ -14,7 +14,7 @@
 extern "C" {
 #endif
 
-#define NOOK_AO_TECHNIQUE_VERSION 1
+#define NOOK_AO_TECHNIQUE_VERSION 2
 
 /** Triangles for the reference, in mesh space. */
 typedef struct nook_ao_mesh_view {
@@ -39,13 +39,17 @@ typedef struct nook_ao_pass {
     nook_texture depth; /**< R32F, distance along -Z in metres, > 0; 0 where there is no geometry. */
     nook_texture
         normal; /**< RG16 octahedral (shaders/nook/octahedral.glsl), unit, view space; any value without geometry. */
-    nook_texture visibility; /**< Output, R32F, [0, 1], 1 = open. Write every pixel; 1 where there is no geometry. */
+    nook_texture
+        visibility; /**< Output, R32F, [0, 1], 1 = open. Write every wanted pixel; 1 where there is no geometry. */
     nook_buffer
         frame; /**< Uniform block of shaders/ao/frame.glsl: sizes, rays of view, r_max, falloff, seed. Binding 0. */
     nook_buffer params;  /**< Uniform block of this technique's params.def. Binding 1. */
     nook_buffer counter; /**< Storage, texture fetches and values out of range. Binding 7: shaders/ao/counter.glsl. */
     int counting;
     uint32_t width, height; /**< Of depth, normal and visibility, pixels. */
+    /** Only these pixels are wanted, begin[] to end[] - 1: all others must keep what visibility holds. */
+    uint32_t begin[2], end[2];
+    uint32_t origin[2]; /**< Pixel of invocation (0, 0) of a dispatch, see nook_ao_pass_groups: a multiple of 8. */
 
     /** The same numbers as in the frame block, for techniques that run on the CPU. */
     double r_max;
@@ -91,6 +95,9 @@ typedef struct nook_ao_technique {
     /** @param params  the struct made from params.def; the same bytes are in pass->params */
     nook_result (*record)(void *state, const void *params, const nook_ao_pass *pass);
 } nook_ao_technique;
+
+/** Groups of a dispatch that starts at origin and covers the wanted pixels. @param local_x, local_y  local size, pixels */
+void nook_ao_pass_groups(const nook_ao_pass *pass, uint32_t local_x, uint32_t local_y, uint32_t out_groups[2]);
 
 /**
  * Runs one compute shader over the trace with everything of the pass bound (see nook_ao_pass): most techniques' record.

@@ -116,7 +116,7 @@ static void trace_rows(void *user, size_t first, size_t last, unsigned worker)
     const trace_work *work = user;
     uint32_t width = work->pass->width;
     for (size_t row = work->first_row + first; row < work->first_row + last; row++) {
-        for (uint32_t x = 0; x < width; x++) {
+        for (uint32_t x = work->pass->begin[0]; x < work->pass->end[0]; x++) {
             size_t i = row * width + x;
             double depth = work->depth[i];
             work->visibility[i] =
@@ -127,12 +127,23 @@ static void trace_rows(void *user, size_t first, size_t last, unsigned worker)
 
 static void trace_image(trace_work *work, unsigned threads)
 {
-    uint32_t height = work->pass->height;
-    for (work->first_row = 0; work->first_row < height; work->first_row += BAND_ROWS) {
-        uint32_t rows = height - work->first_row < BAND_ROWS ? height - work->first_row : BAND_ROWS;
+    uint32_t begin = work->pass->begin[1], end = work->pass->end[1];
+    for (work->first_row = begin; work->first_row < end; work->first_row += BAND_ROWS) {
+        uint32_t rows = end - work->first_row < BAND_ROWS ? end - work->first_row : BAND_ROWS;
         nook_parallel_for(rows, threads, trace_rows, work);
-        work->pass->progress(work->pass->progress_user, (double)(work->first_row + rows) / height);
+        work->pass->progress(work->pass->progress_user, (double)(work->first_row + rows - begin) / (end - begin));
     }
+}
+
+/** The wanted pixels, row by row out of the whole picture. */
+static void write_wanted(const nook_ao_pass *pass, const float *visibility)
+{
+    const nook_gl *gl = pass->gpu->gl;
+    gl->PixelStorei(GL_UNPACK_ROW_LENGTH, (GLint)pass->width);
+    gl->TextureSubImage2D(pass->visibility.id, 0, (GLint)pass->begin[0], (GLint)pass->begin[1],
+                          (GLsizei)(pass->end[0] - pass->begin[0]), (GLsizei)(pass->end[1] - pass->begin[1]), GL_RED,
+                          GL_FLOAT, visibility + (size_t)pass->begin[1] * pass->width + pass->begin[0]);
+    gl->PixelStorei(GL_UNPACK_ROW_LENGTH, 0);
 }
 
 enum { SEES_SCENE, SEES_SCREEN }; /* the choices of reference.sees */
@@ -169,8 +180,7 @@ static nook_result trace_with_memory(const nook_ao_pass *pass, const reference_p
                         .rays = (uint32_t)params->rays,
                         .visibility = visibility };
     trace_image(&work, (unsigned)params->threads);
-    pass->gpu->gl->TextureSubImage2D(pass->visibility.id, 0, 0, 0, (GLsizei)pass->width, (GLsizei)pass->height, GL_RED,
-                                     GL_FLOAT, visibility);
+    write_wanted(pass, visibility);
     return NOOK_OK;
 }
 

@@ -36,7 +36,7 @@ const nook_ao_technique nook_ao_ssao_technique = {
     .param_count = NOOK_COUNT(param_table),
     .params_size = sizeof(ssao_params),
     .state_size = sizeof(ssao_state),
-    .state_version = 1,
+    .state_version = 2,
     .destroy = destroy,
     .record = record,
 };

@@ -43,7 +43,8 @@ static void dispatch_parts(const nook_ao_pass *pass, const volume_work *work, co
                            nook_program program, const nook_buffer *groups)
 {
     uint32_t ray_parts = nook_groups(work->rays, cut->rays);
-    uint32_t occluder_parts = nook_groups(work->occluders, cut->occluders);
+    uint32_t occluder_parts = nook_groups(work->occluders, cut->occluders), all[2];
+    nook_ao_pass_groups(pass, TILE_SIZE, TILE_SIZE, all);
     for (uint32_t i = 0; i < ray_parts * occluder_parts; i++) {
         uint32_t ray = cut->rays * (work->multiply ? i % ray_parts : i / occluder_parts);
         uint32_t occluder = cut->occluders * (work->multiply ? i / ray_parts : i % occluder_parts);
@@ -53,8 +54,7 @@ static void dispatch_parts(const nook_ao_pass *pass, const volume_work *work, co
         if (groups)
             nook_dispatch_indirect(pass->gpu, program, *groups);
         else
-            nook_dispatch(pass->gpu, program, nook_groups(pass->width, TILE_SIZE), nook_groups(pass->height, TILE_SIZE),
-                          1);
+            nook_dispatch(pass->gpu, program, all[0], all[1], 1);
     }
 }
 
@@ -78,7 +78,9 @@ static nook_result bind_kept(volume_state *s, const nook_ao_pass *pass)
  */
 static nook_result trace(volume_state *s, const nook_ao_pass *pass, const volume_work *work, nook_program program)
 {
-    const GLuint nothing[3] = { 0, nook_groups(pass->height, TILE_SIZE), 1 };
+    uint32_t all[2];
+    nook_ao_pass_groups(pass, TILE_SIZE, TILE_SIZE, all);
+    const GLuint nothing[3] = { 0, all[1], 1 };
     volume_cut likely = volume_cut_likely(work), careful = volume_cut_careful(work);
     if (volume_cut_needs_image(work, &likely) || volume_cut_needs_image(work, &careful)) {
         nook_result result = bind_kept(s, pass);
@@ -96,13 +98,20 @@ static nook_result trace(volume_state *s, const nook_ao_pass *pass, const volume
     return NOOK_OK;
 }
 
+static void leave_open(const nook_ao_pass *pass)
+{
+    const float open[4] = { 1.0f, 1.0f, 1.0f, 1.0f };
+    pass->gpu->gl->ClearTexSubImage(pass->visibility.id, 0, (GLint)pass->begin[0], (GLint)pass->begin[1], 0,
+                                    (GLsizei)(pass->end[0] - pass->begin[0]), (GLsizei)(pass->end[1] - pass->begin[1]),
+                                    1, GL_RGBA, GL_FLOAT, open);
+}
+
 static nook_result record(void *state, const void *params, const nook_ao_pass *pass)
 {
     volume_state *s = state;
     const volume_params *p = params;
     if (pass->occluder_count == 0 || pass->volume_atlas.id == 0) {
-        const float open[4] = { 1.0f, 1.0f, 1.0f, 1.0f };
-        pass->gpu->gl->ClearTexImage(pass->visibility.id, 0, GL_RGBA, GL_FLOAT, open);
+        leave_open(pass);
         return NOOK_OK;
     }
     const volume_work work = { (uint32_t)p->rays, (uint32_t)p->steps, pass->occluder_count,
@@ -123,7 +132,7 @@ const nook_ao_technique nook_ao_volume_technique = {
     .param_count = NOOK_COUNT(param_table),
     .params_size = sizeof(volume_params),
     .state_size = sizeof(volume_state),
-    .state_version = 3,
+    .state_version = 4,
     .create = create,
     .destroy = destroy,
     .record = record,

@@ -6,6 +6,11 @@ layout(std430, binding = 7) buffer Counter {
     uint outside;
 } counter;
 
+// What each full-size pixel has fetched, in sixteenths: nook_ao_frame.fetches.
+layout(binding = 2, r32ui) uniform uimage2D fetch_image;
+const int COUNT_SUMS = 1, COUNT_PIXELS = 2; // bits of frame.counting
+const uint FETCH_UNITS = 16u;
+
 uint fetches = 0u; // of this invocation
 
 vec4 fetch(sampler2D from, ivec2 pixel)
@@ -33,14 +38,38 @@ float bounded(float visibility)
     return clamp(visibility, 0.0, 1.0);
 }
 
-// Call at the end of main(), in every invocation that has fetched or computed something.
-void add_counts()
+// No two invocations of a dispatch share a pixel.
+void add_to_pixels(ivec2 first, int side)
 {
-    if (frame.counting == 0)
-        return;
+    ivec2 end = min(first + side, frame.full_size);
+    uint share = fetches * FETCH_UNITS / uint(side * side);
+    for (int y = first.y; y < end.y; y++) {
+        for (int x = first.x; x < end.x; x++)
+            imageStore(fetch_image, ivec2(x, y), uvec4(imageLoad(fetch_image, ivec2(x, y)).r + share));
+    }
+}
+
+void add_to_sums()
+{
     uint before = atomicAdd(counter.fetches_low, fetches);
     if (before + fetches < before)
         atomicAdd(counter.fetches_high, 1u);
     if (outside > 0u)
         atomicAdd(counter.outside, outside);
+}
+
+// `first`, `side`: the full-size pixels that the work was for.
+void add_counts_of(ivec2 first, int side)
+{
+    if ((frame.counting & COUNT_SUMS) != 0)
+        add_to_sums();
+    if ((frame.counting & COUNT_PIXELS) != 0 && fetches > 0u)
+        add_to_pixels(first, side);
+}
+
+// Call at the end of main(), in every invocation of a trace that has fetched or computed something.
+void add_counts()
+{
+    if (frame.counting != 0)
+        add_counts_of(invocation_pixel() * frame.scale, frame.scale);
 }

@@ -89,20 +89,25 @@ float filtered(vec2 centre, Guide guide, ivec2 p)
 
 void main()
 {
-    ivec2 p = ivec2(gl_GlobalInvocationID.xy);
 #ifdef AT_TRACE
-    if (any(greaterThanEqual(p, frame.size)))
+    ivec2 p = frame.begin + ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(p, frame.end)))
         return;
     float depth = fetch(depth_trace, p).r, result = 1.0;
     if (depth > 0.0)
         result = bounded(filtered(vec2(p), guide_trace(p, depth), p));
 #else
-    if (any(greaterThanEqual(p, frame.full_size)))
+    ivec2 p = frame.full_begin + ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(p, frame.full_end)))
         return;
     float depth = fetch(depth_full, p).r, result = 1.0;
     if (depth > 0.0)
         result = bounded(filtered(trace_centre(p), guide_full(p, depth), p));
 #endif
     imageStore(visibility_out, p, vec4(result));
-    add_counts();
+#ifdef AT_TRACE
+    add_counts_of(p * frame.scale, frame.scale);
+#else
+    add_counts_of(p, 1);
+#endif
 }

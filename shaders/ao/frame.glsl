@@ -12,7 +12,7 @@ layout(std140, binding = 0) uniform Frame {
     float falloff_tau;
     uint seed;
     int has_normal;              // 0: rebuild normals from depth
-    int counting;                // 1: add to the fetch counter
+    int counting;                // counter.glsl: 0 nothing, 1 sums, 2 pixels, 3 both
     float filter_radius;         // trace pixels
     float filter_depth;          // pixel footprints
     float filter_normal;         // exponent
@@ -20,7 +20,21 @@ layout(std140, binding = 0) uniform Frame {
     float depth_background;      // device depth where nothing was drawn
     int filter_kind;             // ao.filter: 0 none, 1 disc, 2 tile
     vec4 view_from_world[3];     // rotation only: columns
+    ivec2 origin;                // trace pixel of a dispatch's first invocation
+    ivec2 begin, end;            // trace pixels that are wanted: begin to end - 1
+    ivec2 full_begin, full_end;  // full-resolution pixels that are wanted
 } frame;
+
+// The trace pixel of this invocation; it may lie outside of what is wanted.
+ivec2 invocation_pixel()
+{
+    return frame.origin + ivec2(gl_GlobalInvocationID.xy);
+}
+
+bool is_wanted(ivec2 pixel)
+{
+    return all(greaterThanEqual(pixel, frame.begin)) && all(lessThan(pixel, frame.end));
+}
 
 // The full-resolution pixel that trace pixel p stands for.
 ivec2 full_pixel(ivec2 p)

@@ -15,5 +15,5 @@ void main()
     ivec2 from = full_pixel(p);
     imageStore(depth_out, p, fetch(depth_full, from));
     imageStore(normal_out, p, fetch(normal_full, from));
-    add_counts();
+    add_counts_of(p * frame.scale, frame.scale);
 }

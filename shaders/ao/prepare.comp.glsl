@@ -63,5 +63,5 @@ void main()
     float depth = distance_at(p);
     imageStore(depth_out, p, vec4(depth));
     imageStore(normal_out, p, vec4(nook_octahedral_encode(normal_at(p, depth)), 0.0, 0.0));
-    add_counts();
+    add_counts_of(p, 1);
 }

@@ -41,8 +41,8 @@ Sample look_at(vec3 point)
 
 void main()
 {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(pixel, frame.size)))
+    ivec2 pixel = invocation_pixel();
+    if (!is_wanted(pixel))
         return;
     float depth = fetch(depth_texture, pixel).r;
     float visibility = part.x == 0 ? 1.0 : imageLoad(visibility_image, pixel).r;

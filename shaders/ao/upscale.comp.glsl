@@ -40,12 +40,12 @@ float upscaled(vec2 centre, Guide guide)
 
 void main()
 {
-    ivec2 p = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(p, frame.full_size)))
+    ivec2 p = frame.full_begin + ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(p, frame.full_end)))
         return;
     float depth = fetch(depth_full, p).r, result = 1.0;
     if (depth > 0.0)
         result = bounded(upscaled(trace_centre(p), guide_full(p, depth)));
     imageStore(visibility_out, p, vec4(result));
-    add_counts();
+    add_counts_of(p, 1);
 }

@@ -192,8 +192,8 @@ bool loops_were_ended()
 
 void main()
 {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    bool on_image = all(lessThan(pixel, frame.size)), multiply = params.combine == COMBINE_MULTIPLY;
+    ivec2 pixel = invocation_pixel();
+    bool on_image = is_wanted(pixel), multiply = params.combine == COMBINE_MULTIPLY;
     float depth = on_image ? fetch(depth_texture, pixel).r : 0.0;
     // Between parts the image holds the product so far, or the sum of rho so far.
     bool is_first = part.x == 0 && part.z == 0, is_last = part.y == params.rays && part.w == occluder_count;
