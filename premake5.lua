@@ -96,7 +96,7 @@ removefiles { "game/main.c" } -- of nook_game, the last project made
 
 local function link_everything()
   links(libraries)
-  links { "tinygltf", "stb", "embree3", "glfw", "ode", "zstd", "xxhash", "z", "bz2", "stdc++", "dl", "m" }
+  links { "tinygltf", "stb", "embree3", "glfw", "uv", "ode", "zstd", "xxhash", "z", "bz2", "stdc++", "dl", "m" }
 end
 
 c_project("nook", "ConsoleApp")
