@@ -14,11 +14,13 @@ static void collect_draws(const nook_rows *rows)
 {
     const nook_transform *transforms = rows->columns[0];
     const nook_renderable *renderables = rows->columns[1];
+    const nook_rigid_body *bodies = rows->columns[2];
     nook_draw_list *list = rows->resources[0];
     assert(rows->count <= list->capacity - list->count);
     for (uint32_t i = 0; i < rows->count; i++) {
         nook_draw *draw = &list->items[list->count++];
         draw->mesh = renderables[i].mesh;
+        draw->moves = bodies[i].motion == NOOK_MOTION_DYNAMIC;
         memcpy(draw->world_from_local.m, transforms[i].world_from_local, sizeof draw->world_from_local.m);
     }
 }
@@ -33,7 +35,7 @@ static const nook_system clear_draws_system = {
 static const nook_system collect_draws_system = {
     .name = "render.collect_draws",
     .phase = NOOK_PHASE_PRE_RENDER,
-    .reads = { NOOK_TYPE(nook_transform), NOOK_TYPE(nook_renderable) },
+    .reads = { NOOK_TYPE(nook_transform), NOOK_TYPE(nook_renderable), NOOK_TYPE(nook_rigid_body) },
     .resources = { NOOK_TYPE(nook_draw_list) },
     .run = collect_draws,
 };

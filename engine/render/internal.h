@@ -126,23 +126,49 @@ typedef struct render_targets {
     nook_framebuffer gbuffer_target, light_target, blended_target, image_target;
 } render_targets;
 
-/** What the shadow map holds, to tell whether it must be drawn again. */
+/** A box in the sun's axes: x, y across, z away from the sun. In double: it is not relative to the camera, which moves. */
+typedef struct sun_box {
+    double low[3], high[3];
+} sun_box;
+
+/** Where the sun's shadow map lies in the world. */
+typedef struct shadow_fit {
+    nook_matrix sun_from_world, map_from_world; /* map: [0, 1]^3 */
+    sun_box box;                                /* what the map has room for */
+    double texel;                               /* metres */
+} shadow_fit;
+
+/** Part of the shadow map, texels: low inside, high outside. */
+typedef struct shadow_rect {
+    int32_t low[2], high[2];
+} shadow_rect;
+
+enum { SHADOW_RECTS = 8 };
+
+/** Parts of the map that show what has changed. */
+typedef struct shadow_rects {
+    shadow_rect items[SHADOW_RECTS];
+    uint32_t count;
+} shadow_rects;
+
+/** What the shadow map holds, to tell what of it must be drawn again. */
 typedef struct shadow_contents {
     const nook_render_scene *scene; /* NULL: nothing */
     double scene_created_ms;
     double sun_direction[3];
     grow_list draws; /* nook_draw */
+    grow_list some;  /* nook_draw: those of one part */
     size_t draw_count;
-    nook_matrix map_from_world; /* to [0, 1]^3 */
-    double texel;               /* metres */
+    shadow_fit fit;
+    bool has_base; /* the base map holds all draws that do not move */
 } shadow_contents;
 
 struct nook_renderer {
     nook_gpu *gpu;
     uint32_t width, height;
     render_targets targets;
-    nook_texture shadow_map;
-    nook_framebuffer shadow_target;
+    nook_texture shadow_map, shadow_base; /* the base is made when something first moves */
+    nook_framebuffer shadow_target, shadow_base_target;
     shadow_contents shadow;
     nook_texture white;
     nook_buffer frame_uniforms, light_uniforms;
@@ -197,6 +223,17 @@ void nook_draw_primitive(nook_renderer *renderer, const nook_render_scene *scene
 void nook_draw_solid(nook_renderer *renderer, const nook_render_scene *scene, const draw_set *set, nook_program opaque,
                      nook_program masked, bool cull);
 void nook_draw_fullscreen(nook_renderer *renderer, nook_program program);
+
+/* shadow_fit.c */
+/** Fits the map to everything drawn. @return false: nothing is drawn */
+bool nook_shadow_fit(const nook_frame *frame, shadow_fit *out);
+/** Whether the map has room for a draw; true for one that shows nothing. */
+bool nook_shadow_has_room(const shadow_fit *fit, const nook_scene *scene, const nook_draw *draw);
+/** The texels that a draw's shadow can touch. @return false: none */
+bool nook_shadow_rect(const shadow_fit *fit, const nook_scene *scene, const nook_draw *draw, shadow_rect *out);
+bool nook_shadow_rects_meet(const shadow_rect *a, const shadow_rect *b);
+/** Adds a part; parts that meet become one, and so do the two that waste least when there are too many. */
+void nook_shadow_rects_add(shadow_rects *rects, shadow_rect added);
 
 /* one per pass; frame.c calls them in order */
 nook_result nook_pass_shadow(nook_renderer *renderer, const nook_frame *frame);

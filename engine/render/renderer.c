@@ -100,10 +100,13 @@ void nook_renderer_destroy(nook_renderer *r)
     nook_draw_set_destroy(r->gpu, &r->casters);
     free(r->blended.items);
     free(r->shadow.draws.items);
+    free(r->shadow.some.items);
     nook_framebuffer_destroy(r->gpu, &r->shadow_target);
+    nook_framebuffer_destroy(r->gpu, &r->shadow_base_target);
     gl->DeleteVertexArrays(1, &r->vertex_array);
     gl->DeleteVertexArrays(1, &r->empty_vertex_array);
     nook_texture_destroy(r->gpu, &r->shadow_map);
+    nook_texture_destroy(r->gpu, &r->shadow_base);
     nook_texture_destroy(r->gpu, &r->white);
     nook_buffer_destroy(r->gpu, &r->frame_uniforms);
     nook_buffer_destroy(r->gpu, &r->light_uniforms);

@@ -27,7 +27,8 @@ typedef struct nook_render_scene nook_render_scene; /**< A scene on the GPU. */
 
 /** One instance of a mesh in this frame. */
 typedef struct nook_draw {
-    uint32_t mesh;                /**< Into scene->meshes. */
+    uint32_t mesh; /**< Into scene->meshes. */
+    bool moves;    /**< It may stand elsewhere in the next frame: tells what is worth keeping of a shadow map. */
     nook_matrix world_from_local; /**< Any affine matrix; a singular one is not drawn. */
 } nook_draw;
 

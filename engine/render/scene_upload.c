@@ -224,7 +224,8 @@ size_t nook_scene_draws(const nook_scene *scene, nook_draw *out)
         if (node->mesh == NOOK_NONE)
             continue;
         if (out != NULL)
-            out[count] = (nook_draw){ .mesh = node->mesh, .world_from_local = node->world_from_local };
+            out[count] =
+                (nook_draw){ .mesh = node->mesh, .moves = node->moving, .world_from_local = node->world_from_local };
         count++;
     }
     return count;

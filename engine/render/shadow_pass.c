@@ -1,69 +1,9 @@
+/* The sun's shadow map. It is kept from frame to frame: when something moves, only the parts of it that show what has moved are
+   made anew, from a second map that holds all that never moves. What comes out is the map that drawing everything would give, bit
+   for bit, because each texel is the least of the same depths. */
 #include "engine/core/log.h"
-#include "engine/core/vector.h"
 #include "engine/render/internal.h"
-#include <math.h>
 #include <string.h>
-
-/** A box in the sun's axes: x, y across, z away from the sun. In double: it is not relative to the camera, which moves. */
-typedef struct sun_box {
-    double low[3], high[3];
-} sun_box;
-
-/** Extends a box by that of a mesh. */
-static void add_mesh(const nook_mesh *mesh, const nook_matrix *sun_from_mesh, sun_box *box)
-{
-    for (int i = 0; i < 8; i++) {
-        double p[3];
-        for (int k = 0; k < 3; k++)
-            p[k] = (i >> k & 1) ? mesh->bounds_max[k] : mesh->bounds_min[k];
-        nook_matrix_apply_point(sun_from_mesh, p, p);
-        for (int k = 0; k < 3; k++) {
-            box->low[k] = fmin(box->low[k], p[k]);
-            box->high[k] = fmax(box->high[k], p[k]);
-        }
-    }
-}
-
-/** The box of everything drawn. @return false: nothing is */
-static bool box_of_draws(const nook_frame *frame, const nook_matrix *sun_from_world, sun_box *box)
-{
-    *box = (sun_box){ { INFINITY, INFINITY, INFINITY }, { -INFINITY, -INFINITY, -INFINITY } };
-    for (size_t i = 0; i < frame->draw_count; i++) {
-        const nook_mesh *mesh = &frame->scene->scene->meshes[frame->draws[i].mesh];
-        if (!(mesh->bounds_min[0] <= mesh->bounds_max[0]))
-            continue;
-        nook_matrix sun_from_mesh = nook_matrix_multiply(sun_from_world, &frame->draws[i].world_from_local);
-        add_mesh(mesh, &sun_from_mesh, box);
-    }
-    return box->low[0] <= box->high[0] && isfinite(box->high[0] - box->low[0]);
-}
-
-/** The sun's axes: z away from the sun, so that depth grows along its light. */
-static nook_matrix sun_axes(const nook_sun *sun)
-{
-    const double *d = sun->direction;
-    const double zero[3] = { 0, 0, 0 }, up[3] = { 0, 1, 0 }, side[3] = { 1, 0, 0 };
-    bool steep = fabs(d[1]) > 0.99 * nook_vector_length(d);
-    nook_matrix view = nook_matrix_look_at(zero, d, steep ? side : up); /* looks along -z */
-    nook_matrix flip = nook_matrix_scale(1.0, 1.0, -1.0);
-    return nook_matrix_multiply(&flip, &view);
-}
-
-/** Fits the map to a box. @return map from sun: [0, 1]^3; *texel is a texel's width in metres */
-static nook_matrix fit(const sun_box *box, double *texel)
-{
-    const double margin = 4.0; /* texels: the filter never reaches past the edge */
-    double width = fmax(box->high[0] - box->low[0], box->high[1] - box->low[1]);
-    double depth = box->high[2] - box->low[2];
-    width = fmax(width, fmax(depth * 1e-3, 1e-6)) * SHADOW_SIZE / (SHADOW_SIZE - 2.0 * margin);
-    *texel = width / SHADOW_SIZE;
-    double spare = 4.0 * *texel;
-    depth += 2.0 * spare;
-    nook_matrix scale = nook_matrix_scale(1.0 / width, 1.0 / width, 1.0 / depth);
-    nook_matrix move = nook_matrix_translation(0.5 * width - 0.5 * (box->low[0] + box->high[0]),
-                                               0.5 * width - 0.5 * (box->low[1] + box->high[1]), spare - box->low[2]);
-    return nook_matrix_multiply(&scale, &move);
-}
 
 static bool same_direction(const double a[3], const double b[3])
 {
@@ -71,13 +11,23 @@ static bool same_direction(const double a[3], const double b[3])
 }
 
 /** Draws are compared as bytes: a difference that is none only costs a pass. */
-static bool is_current(const shadow_contents *shadow, const nook_frame *frame)
+static bool same_draw(const nook_draw *a, const nook_draw *b)
 {
-    return shadow->scene == frame->scene && shadow->scene_created_ms == frame->scene->created_ms &&
-           same_direction(shadow->sun_direction, frame->lights->sun.direction) &&
-           shadow->draw_count == frame->draw_count &&
-           (frame->draw_count == 0 ||
-            memcmp(shadow->draws.items, frame->draws, frame->draw_count * sizeof *frame->draws) == 0);
+    return memcmp(a, b, sizeof *a) == 0;
+}
+
+/** Whether the map is of this scene, this sun and these draws, wherever those that move stand now. */
+static bool is_of(const shadow_contents *shadow, const nook_frame *frame)
+{
+    bool same = shadow->scene == frame->scene && shadow->scene_created_ms == frame->scene->created_ms &&
+                same_direction(shadow->sun_direction, frame->lights->sun.direction) &&
+                shadow->draw_count == frame->draw_count;
+    const nook_draw *draws = shadow->draws.items;
+    for (size_t i = 0; same && i < frame->draw_count; i++) {
+        const nook_draw *draw = &frame->draws[i];
+        same = draws[i].moves && draw->moves && draws[i].mesh == draw->mesh ? true : same_draw(&draws[i], draw);
+    }
+    return same;
 }
 
 static nook_result remember(shadow_contents *shadow, const nook_frame *frame)
@@ -94,23 +44,123 @@ static nook_result remember(shadow_contents *shadow, const nook_frame *frame)
     return NOOK_OK;
 }
 
-static nook_result draw_map(nook_renderer *renderer, const nook_frame *frame)
+/** Draws into a map. @param part only there, over what it holds; NULL: the whole map, from nothing */
+static nook_result draw_map(nook_renderer *renderer, const nook_frame *frame, nook_framebuffer target,
+                            const shadow_rect *part)
 {
     const nook_gl *gl = renderer->gpu->gl;
     nook_matrix clip_from_map = nook_matrix_scale(2.0, 2.0, 1.0); /* x and y to [-1, 1] */
     clip_from_map.m[12] = clip_from_map.m[13] = -1.0;
-    batch_view view = { .view_from_world = nook_matrix_multiply(&clip_from_map, &renderer->shadow.map_from_world) };
+    batch_view view = { .view_from_world = nook_matrix_multiply(&clip_from_map, &renderer->shadow.fit.map_from_world) };
     nook_result result = nook_batch(renderer->gpu, frame, &view, &renderer->casters);
     if (result != NOOK_OK)
         return result;
-    nook_raster_begin(renderer->gpu, renderer->shadow_target,
-                      (raster_state){ .depth_compare = GL_LESS, .depth_write = true });
+    nook_raster_begin(renderer->gpu, target, (raster_state){ .depth_compare = GL_LESS, .depth_write = true });
     const float far = 1.0f;
-    gl->ClearNamedFramebufferfv(renderer->shadow_target.id, GL_DEPTH, 0, &far);
+    if (part) {
+        gl->Enable(GL_SCISSOR_TEST);
+        gl->Scissor(part->low[0], part->low[1], part->high[0] - part->low[0], part->high[1] - part->low[1]);
+    } else {
+        gl->ClearNamedFramebufferfv(target.id, GL_DEPTH, 0, &far);
+    }
     nook_draw_solid(renderer, frame->scene, &renderer->casters, renderer->shadow_program,
                     renderer->shadow_masked_program, false);
+    gl->Disable(GL_SCISSOR_TEST);
     nook_raster_end(renderer->gpu);
-    return remember(&renderer->shadow, frame);
+    return NOOK_OK;
+}
+
+/** Those draws of a frame that move, or those that do not. @param part of those that move, only what can touch it; NULL: all */
+static nook_result choose(shadow_contents *shadow, const nook_frame *frame, bool moves, const shadow_rect *part,
+                          nook_frame *out)
+{
+    if (!nook_grow(&shadow->some, frame->draw_count * sizeof(nook_draw)))
+        return nook_fail(NOOK_E_MEMORY, "%zu draws: no memory for their shadows", frame->draw_count);
+    nook_draw *some = shadow->some.items;
+    *out = *frame;
+    out->draws = some;
+    out->draw_count = 0;
+    for (size_t i = 0; i < frame->draw_count; i++) {
+        shadow_rect rect;
+        const nook_draw *draw = &frame->draws[i];
+        if (draw->moves != moves)
+            continue;
+        if (part &&
+            !(nook_shadow_rect(&shadow->fit, frame->scene->scene, draw, &rect) && nook_shadow_rects_meet(&rect, part)))
+            continue;
+        some[out->draw_count++] = *draw;
+    }
+    return NOOK_OK;
+}
+
+/** Makes the second map, and draws into it what does not move. */
+static nook_result draw_base(nook_renderer *renderer, const nook_frame *frame)
+{
+    nook_result result = NOOK_OK;
+    nook_frame still;
+    if (renderer->shadow_base.id == 0) {
+        result = nook_texture_create_2d(renderer->gpu, GL_DEPTH_COMPONENT32F, SHADOW_SIZE, SHADOW_SIZE, GL_NEAREST,
+                                        &renderer->shadow_base);
+        if (result == NOOK_OK)
+            result =
+                nook_framebuffer_create(renderer->gpu, NULL, 0, renderer->shadow_base, &renderer->shadow_base_target);
+    }
+    if (result == NOOK_OK)
+        result = choose(&renderer->shadow, frame, false, NULL, &still);
+    if (result == NOOK_OK)
+        result = draw_map(renderer, &still, renderer->shadow_base_target, NULL);
+    renderer->shadow.has_base = result == NOOK_OK;
+    return result;
+}
+
+/** The parts of the map where what has moved was, or is. @return false: something has left the map */
+static bool find_changes(const shadow_contents *shadow, const nook_frame *frame, shadow_rects *out)
+{
+    const nook_scene *scene = frame->scene->scene;
+    const nook_draw *before = shadow->draws.items;
+    *out = (shadow_rects){ .count = 0 };
+    for (size_t i = 0; i < frame->draw_count; i++) {
+        shadow_rect rect;
+        if (same_draw(&before[i], &frame->draws[i]))
+            continue;
+        if (!nook_shadow_has_room(&shadow->fit, scene, &frame->draws[i]))
+            return false;
+        if (nook_shadow_rect(&shadow->fit, scene, &before[i], &rect))
+            nook_shadow_rects_add(out, rect);
+        if (nook_shadow_rect(&shadow->fit, scene, &frame->draws[i], &rect))
+            nook_shadow_rects_add(out, rect);
+    }
+    return true;
+}
+
+static nook_result draw_part(nook_renderer *renderer, const nook_frame *frame, const shadow_rect *part)
+{
+    nook_frame movers;
+    nook_result result = choose(&renderer->shadow, frame, true, part, &movers);
+    if (result != NOOK_OK)
+        return result;
+    renderer->gpu->gl->CopyImageSubData(renderer->shadow_base.id, GL_TEXTURE_2D, 0, part->low[0], part->low[1], 0,
+                                        renderer->shadow_map.id, GL_TEXTURE_2D, 0, part->low[0], part->low[1], 0,
+                                        part->high[0] - part->low[0], part->high[1] - part->low[1], 1);
+    return movers.draw_count > 0 ? draw_map(renderer, &movers, renderer->shadow_target, part) : NOOK_OK;
+}
+
+static nook_result draw_changes(nook_renderer *renderer, const nook_frame *frame, const shadow_rects *changes)
+{
+    nook_result result = NOOK_OK;
+    if (changes->count > 0 && !renderer->shadow.has_base)
+        result = draw_base(renderer, frame);
+    for (uint32_t i = 0; i < changes->count && result == NOOK_OK; i++)
+        result = draw_part(renderer, frame, &changes->items[i]);
+    return result;
+}
+
+/** @return NOOK_OK also when nothing is drawn: nobody looks into the map then */
+static nook_result draw_all(nook_renderer *renderer, const nook_frame *frame, bool *out_drawn)
+{
+    renderer->shadow.has_base = false;
+    *out_drawn = nook_shadow_fit(frame, &renderer->shadow.fit);
+    return *out_drawn ? draw_map(renderer, frame, renderer->shadow_target, NULL) : NOOK_OK;
 }
 
 /** The map as the shaders use it: from relative space. The camera moves, the map need not. */
@@ -119,9 +169,9 @@ static void set_uniforms(nook_renderer *renderer, const nook_camera *camera)
     double eye[3];
     nook_camera_position(camera, eye);
     nook_matrix world_from_relative = nook_matrix_translation(eye[0], eye[1], eye[2]);
-    nook_matrix map_from_relative = nook_matrix_multiply(&renderer->shadow.map_from_world, &world_from_relative);
+    nook_matrix map_from_relative = nook_matrix_multiply(&renderer->shadow.fit.map_from_world, &world_from_relative);
     nook_matrix_to_float(&map_from_relative, renderer->frame.shadow_from_relative);
-    renderer->frame.shadow_texel = (float)renderer->shadow.texel;
+    renderer->frame.shadow_texel = (float)renderer->shadow.fit.texel;
 }
 
 nook_result nook_pass_shadow(nook_renderer *renderer, const nook_frame *frame)
@@ -129,17 +179,13 @@ nook_result nook_pass_shadow(nook_renderer *renderer, const nook_frame *frame)
     shadow_contents *shadow = &renderer->shadow;
     if (!nook_sun_shines(&frame->lights->sun))
         return NOOK_OK;
-    nook_result result = NOOK_OK;
-    if (!is_current(shadow, frame)) {
-        nook_matrix sun_from_world = sun_axes(&frame->lights->sun);
-        sun_box box;
-        shadow->scene = NULL;
-        if (!box_of_draws(frame, &sun_from_world, &box))
-            return NOOK_OK; /* nothing is drawn: nobody looks into the map */
-        nook_matrix map_from_sun = fit(&box, &shadow->texel);
-        shadow->map_from_world = nook_matrix_multiply(&map_from_sun, &sun_from_world);
-        result = draw_map(renderer, frame);
-    }
-    set_uniforms(renderer, &frame->camera);
+    shadow_rects changes;
+    bool drawn = true, in_parts = is_of(shadow, frame) && find_changes(shadow, frame, &changes);
+    shadow->scene = NULL; /* until it is whole */
+    nook_result result = in_parts ? draw_changes(renderer, frame, &changes) : draw_all(renderer, frame, &drawn);
+    if (result == NOOK_OK && drawn)
+        result = remember(shadow, frame);
+    if (result == NOOK_OK && drawn)
+        set_uniforms(renderer, &frame->camera);
     return result;
 }

@@ -138,7 +138,8 @@ static void test_draws_of_one_mesh_become_instances_in_their_places(void **state
     test_scene_add_facing(&scene, 0.5f, -2.0f);
     test_picture_create(&picture, test_gpu_of(state), &scene, 32, 32);
     for (int i = 0; i < 4; i++)
-        picture.draws[i] = (nook_draw){ 0, nook_matrix_translation(i % 2 == 0 ? -1 : 1, i < 2 ? -1 : 1, 0) };
+        picture.draws[i] =
+            (nook_draw){ .world_from_local = nook_matrix_translation(i % 2 == 0 ? -1 : 1, i < 2 ? -1 : 1, 0) };
     picture.draws[3].world_from_local.m[0] = -1.0; /* a mirrored one is culled by its winding only if that is wrong */
     picture.frame.draw_count = 4;
     test_picture_render(&picture, NOOK_VIEW_LIT);

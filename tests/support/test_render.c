@@ -91,7 +91,7 @@ void test_picture_create(test_picture *p, nook_gpu *gpu, const test_scene *scene
     assert_int_equal(nook_renderer_create(gpu, width, height, &p->renderer), NOOK_OK);
     assert_int_equal(nook_render_scene_create(gpu, &scene->scene, &p->scene), NOOK_OK);
     for (uint32_t i = 0; i < scene->scene.mesh_count; i++)
-        p->draws[i] = (nook_draw){ i, nook_matrix_identity() };
+        p->draws[i] = (nook_draw){ .mesh = i, .world_from_local = nook_matrix_identity() };
     p->lights = nook_lights_default();
     p->frame = (nook_frame){
         .scene = p->scene,
