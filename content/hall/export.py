@@ -4,12 +4,13 @@ import struct
 import bpy
 
 
-def export_glb(path):
+def export_glb(path, images='AUTO'):
+    """images: AUTO keeps packed roughness and metalness as PNG, JPEG makes everything small."""
     bpy.ops.export_scene.gltf(
         filepath=path,
         export_format='GLB',
         export_copyright='Nook contributors, CC0 1.0',
-        export_image_format='AUTO',
+        export_image_format=images,
         export_texcoords=True,
         export_normals=True,
         export_tangents=False,
@@ -35,7 +36,7 @@ def tidy(scene):
             if key in node.get('extras', {}):
                 node['extras'][key] = bool(node['extras'][key])
     scene.pop('extensionsRequired', None)
-    for light in scene['extensions']['KHR_lights_punctual']['lights']:
+    for light in scene.get('extensions', {}).get('KHR_lights_punctual', {}).get('lights', []):
         light['intensity'] = round(light['intensity'], 3)
         light['color'] = [round(c, 3) for c in light['color']]
 
