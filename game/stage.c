@@ -156,13 +156,12 @@ nook_result nook_stage_set_size(nook_stage *stage, uint32_t width, uint32_t heig
     return result;
 }
 
-/* Whether GL took everything since the last check; that says itself what it did not take. */
-static nook_result check(nook_stage *stage, const char *where)
+nook_result nook_stage_check(nook_stage *stage, const char *where)
 {
     return nook_gpu_check(stage->gpu, where) ? NOOK_E_DEVICE : NOOK_OK;
 }
 
-nook_result nook_stage_begin(nook_stage *stage, const nook_camera *camera)
+nook_result nook_stage_update(nook_stage *stage, const nook_camera *camera)
 {
     nook_result result = nook_game_world_update(stage->world, stage->ao);
     if (result != NOOK_OK)
@@ -174,8 +173,15 @@ nook_result nook_stage_begin(nook_stage *stage, const nook_camera *camera)
                                  .draw_count = draw_count,
                                  .camera = *camera,
                                  .lights = &stage->lights };
-    result = nook_frame_begin(stage->renderer, &stage->frame);
-    return result == NOOK_OK ? check(stage, "the G-buffer") : result;
+    return NOOK_OK;
+}
+
+nook_result nook_stage_begin(nook_stage *stage, const nook_camera *camera)
+{
+    nook_result result = nook_stage_update(stage, camera);
+    if (result == NOOK_OK)
+        result = nook_frame_begin(stage->renderer, &stage->frame);
+    return result == NOOK_OK ? nook_stage_check(stage, "the G-buffer") : result;
 }
 
 static nook_ao_texture ao_texture(nook_texture texture)
@@ -183,7 +189,7 @@ static nook_ao_texture ao_texture(nook_texture texture)
     return (nook_ao_texture){ texture.id, texture.width, texture.height };
 }
 
-nook_result nook_stage_occlude(nook_stage *stage)
+nook_ao_frame nook_stage_ao_frame(const nook_stage *stage)
 {
     nook_gbuffer gbuffer = nook_renderer_gbuffer(stage->renderer);
     nook_matrix clip_from_view = nook_renderer_clip_from_view(stage->renderer, &stage->frame.camera);
@@ -192,18 +198,28 @@ nook_result nook_stage_occlude(nook_stage *stage)
                             .index = stage->frame_index };
     memcpy(frame.view_from_world, stage->frame.camera.view_from_world.m, sizeof frame.view_from_world);
     memcpy(frame.clip_from_view, clip_from_view.m, sizeof frame.clip_from_view);
+    return frame;
+}
+
+nook_result nook_stage_occlude(nook_stage *stage)
+{
+    const nook_ao_frame frame = nook_stage_ao_frame(stage);
     return nook_ao_record(stage->ao, &frame);
+}
+
+nook_texture nook_stage_visibility(const nook_stage *stage)
+{
+    nook_ao_texture texture = nook_ao_visibility(stage->ao);
+    return (nook_texture){ texture.native, GL_TEXTURE_2D, texture.width, texture.height, 1, GL_R32F };
 }
 
 nook_result nook_stage_finish(nook_stage *stage, bool occluded, nook_view view)
 {
     nook_texture visibility = { 0 };
-    if (occluded) {
-        nook_ao_texture texture = nook_ao_visibility(stage->ao);
-        visibility = (nook_texture){ texture.native, GL_TEXTURE_2D, texture.width, texture.height, 1, GL_R32F };
-    }
+    if (occluded)
+        visibility = nook_stage_visibility(stage);
     nook_frame_finish(stage->renderer, &stage->frame, visibility, view);
-    return check(stage, "a picture");
+    return nook_stage_check(stage, "a picture");
 }
 
 void nook_stage_show(nook_stage *stage, const char *doing)

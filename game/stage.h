@@ -56,6 +56,17 @@ void nook_stage_close(nook_stage *stage); /**< Zeroed stages are allowed; become
 /** @return why not; the stage must be closed then */
 nook_result nook_stage_set_size(nook_stage *stage, uint32_t width, uint32_t height);
 
+/* The parts of begin, occlude and finish, for those who draw several views of one frame (game/live). */
+
+/** Runs the systems, submits the occluders and fills in the frame; draws nothing. @return why not */
+nook_result nook_stage_update(nook_stage *stage, const nook_camera *camera);
+/** Whether GL took everything since the last check; that says itself what it did not take. @return NOOK_E_DEVICE */
+nook_result nook_stage_check(nook_stage *stage, const char *where);
+/** What nook_ao_record takes for the last G-buffer: the whole picture. */
+nook_ao_frame nook_stage_ao_frame(const nook_stage *stage);
+/** What the AO wrote last; id 0 before its first record. */
+nook_texture nook_stage_visibility(const nook_stage *stage);
+
 /** Runs the systems, submits the occluders, draws the G-buffer. @return why not; NOOK_E_DEVICE: GL raised an error */
 nook_result nook_stage_begin(nook_stage *stage, const nook_camera *camera);
 /** Records the chosen technique on the last G-buffer. */

@@ -76,14 +76,14 @@ nook_result nook_collect_blended(nook_renderer *renderer, const nook_frame *fram
     return NOOK_OK;
 }
 
-void nook_pass_blended(nook_renderer *renderer, const nook_frame *frame)
+void nook_pass_blended(nook_renderer *renderer, const nook_frame *frame, nook_rectangle part)
 {
     if (renderer->blended_count == 0)
         return;
     const nook_gl *gl = renderer->gpu->gl;
     const nook_scene *scene = frame->scene->scene;
     nook_raster_begin(renderer->gpu, renderer->targets.blended_target,
-                      (raster_state){ .depth_compare = GL_GEQUAL, .cull = true, .blend = true });
+                      (raster_state){ .depth_compare = GL_GEQUAL, .cull = true, .blend = true, .part = part });
     nook_bind_geometry(renderer, frame->scene, &renderer->visible);
     nook_bind_texture(renderer->gpu, UNIT_SHADOW, renderer->shadow_map);
     gl->UseProgram(renderer->blended_program.id);

@@ -13,7 +13,9 @@ void nook_raster_begin(nook_gpu *gpu, nook_framebuffer framebuffer, raster_state
     const nook_gl *gl = gpu->gl;
     nook_framebuffer_bind(gpu, framebuffer);
     gl->ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-    gl->Disable(GL_SCISSOR_TEST);
+    enable(gl, GL_SCISSOR_TEST, state.part.width != 0);
+    if (state.part.width != 0)
+        gl->Scissor((GLint)state.part.x, (GLint)state.part.y, (GLsizei)state.part.width, (GLsizei)state.part.height);
     gl->Disable(GL_STENCIL_TEST);
     enable(gl, GL_DEPTH_TEST, state.depth_compare != 0);
     if (state.depth_compare != 0)
@@ -32,6 +34,7 @@ void nook_raster_end(nook_gpu *gpu)
 {
     const nook_gl *gl = gpu->gl;
     gl->BindVertexArray(0);
+    gl->Disable(GL_SCISSOR_TEST);
     gl->Disable(GL_DEPTH_TEST);
     gl->DepthFunc(GL_LESS);
     gl->DepthMask(GL_TRUE);

@@ -1,6 +1,7 @@
 /* The frame, in order. docs/rendering.md tells what each pass reads and writes. */
 #include "engine/core/log.h"
 #include "engine/render/internal.h"
+#include <assert.h>
 #include <math.h>
 
 static nook_result check(const nook_frame *frame)
@@ -42,26 +43,42 @@ static nook_result collect_visible(nook_renderer *renderer, const nook_frame *fr
     return result;
 }
 
-nook_result nook_frame_begin(nook_renderer *renderer, const nook_frame *frame)
+nook_result nook_frame_shadow(nook_renderer *renderer, const nook_frame *frame)
 {
     nook_result result = check(frame);
     if (result == NOOK_OK)
         result = collect_visible(renderer, frame);
-    if (result == NOOK_OK)
-        result = nook_pass_shadow(renderer, frame);
-    if (result != NOOK_OK)
-        return result;
+    return result == NOOK_OK ? nook_pass_shadow(renderer, frame) : result;
+}
+
+void nook_frame_gbuffer(nook_renderer *renderer, const nook_frame *frame)
+{
     nook_uniforms_frame(renderer, frame);
     nook_uniforms_lights(renderer, frame);
     nook_pass_gbuffer(renderer, frame);
-    return NOOK_OK;
+}
+
+nook_result nook_frame_begin(nook_renderer *renderer, const nook_frame *frame)
+{
+    nook_result result = nook_frame_shadow(renderer, frame);
+    if (result == NOOK_OK)
+        nook_frame_gbuffer(renderer, frame);
+    return result;
+}
+
+void nook_frame_finish_part(nook_renderer *renderer, const nook_frame *frame, nook_texture visibility, nook_view view,
+                            nook_rectangle part)
+{
+    assert(part.x <= renderer->width && part.width <= renderer->width - part.x && part.y <= renderer->height &&
+           part.height <= renderer->height - part.y && (part.width == 0) == (part.height == 0));
+    if (view == NOOK_VIEW_LIT || view == NOOK_VIEW_LIGHT) {
+        nook_pass_lighting(renderer, visibility, part);
+        nook_pass_blended(renderer, frame, part);
+    }
+    nook_pass_view(renderer, visibility, view, part);
 }
 
 void nook_frame_finish(nook_renderer *renderer, const nook_frame *frame, nook_texture visibility, nook_view view)
 {
-    if (view == NOOK_VIEW_LIT || view == NOOK_VIEW_LIGHT) {
-        nook_pass_lighting(renderer, visibility);
-        nook_pass_blended(renderer, frame);
-    }
-    nook_pass_view(renderer, visibility, view);
+    nook_frame_finish_part(renderer, frame, visibility, view, (nook_rectangle){ 0 });
 }

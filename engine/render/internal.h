@@ -207,7 +207,8 @@ typedef struct raster_state {
     bool depth_write;
     bool cull; /* back faces of single-sided materials */
     bool blend;
-    bool srgb; /* encode into sRGB targets */
+    bool srgb;           /* encode into sRGB targets */
+    nook_rectangle part; /* of the target; all zero: all of it */
 } raster_state;
 void nook_raster_begin(nook_gpu *gpu, nook_framebuffer framebuffer, raster_state state);
 /** Back to GL's defaults, so that the caller's own drawing and compute passes find them. */
@@ -240,9 +241,10 @@ nook_result nook_pass_shadow(nook_renderer *renderer, const nook_frame *frame);
 void nook_pass_gbuffer(nook_renderer *renderer, const nook_frame *frame);
 /** Collects the blended primitives that are in view, farthest first. @return NOOK_E_MEMORY */
 nook_result nook_collect_blended(nook_renderer *renderer, const nook_frame *frame);
-void nook_pass_lighting(nook_renderer *renderer, nook_texture visibility);
-void nook_pass_blended(nook_renderer *renderer, const nook_frame *frame);
-void nook_pass_view(nook_renderer *renderer, nook_texture visibility, nook_view view);
+/* part: all zero for the whole picture */
+void nook_pass_lighting(nook_renderer *renderer, nook_texture visibility, nook_rectangle part);
+void nook_pass_blended(nook_renderer *renderer, const nook_frame *frame, nook_rectangle part);
+void nook_pass_view(nook_renderer *renderer, nook_texture visibility, nook_view view, nook_rectangle part);
 
 /* uniforms.c */
 /** Fills and uploads the frame block; the shadow's part was filled by the shadow pass. */

@@ -17,18 +17,18 @@ static void bind_inputs(nook_renderer *renderer, nook_texture visibility)
     nook_bind_texture(gpu, UNIT_VISIBILITY, visibility.id != 0 ? visibility : renderer->white);
 }
 
-void nook_pass_lighting(nook_renderer *renderer, nook_texture visibility)
+void nook_pass_lighting(nook_renderer *renderer, nook_texture visibility, nook_rectangle part)
 {
-    nook_raster_begin(renderer->gpu, renderer->targets.light_target, (raster_state){ 0 });
+    nook_raster_begin(renderer->gpu, renderer->targets.light_target, (raster_state){ .part = part });
     bind_inputs(renderer, visibility);
     nook_draw_fullscreen(renderer, renderer->lighting_program);
     nook_raster_end(renderer->gpu);
 }
 
-void nook_pass_view(nook_renderer *renderer, nook_texture visibility, nook_view view)
+void nook_pass_view(nook_renderer *renderer, nook_texture visibility, nook_view view, nook_rectangle part)
 {
     const nook_gl *gl = renderer->gpu->gl;
-    nook_raster_begin(renderer->gpu, renderer->targets.image_target, (raster_state){ 0 });
+    nook_raster_begin(renderer->gpu, renderer->targets.image_target, (raster_state){ .part = part });
     bind_inputs(renderer, visibility);
     nook_bind_texture(renderer->gpu, UNIT_LIGHT, renderer->targets.light);
     gl->UseProgram(renderer->view_program.id);

@@ -10,6 +10,7 @@
 #pragma once
 #include "engine/asset/scene.h"
 #include "engine/core/matrix.h"
+#include "engine/core/rectangle.h"
 #include "engine/core/result.h"
 #include "engine/gpu/gpu.h"
 #include <stdbool.h>
@@ -131,6 +132,17 @@ nook_result nook_frame_begin(nook_renderer *renderer, const nook_frame *frame);
  * @param visibility  any 2D texture of the frame's size, red = fraction of the sky seen; id 0: everything is open
  */
 void nook_frame_finish(nook_renderer *renderer, const nook_frame *frame, nook_texture visibility, nook_view view);
+
+/** The two halves of nook_frame_begin, for those who time them: checks, culls and draws the sun's shadow map. @return as begin */
+nook_result nook_frame_shadow(nook_renderer *renderer, const nook_frame *frame);
+/** Draws the G-buffer of the frame that nook_frame_shadow was given. */
+void nook_frame_gbuffer(nook_renderer *renderer, const nook_frame *frame);
+/**
+ * As nook_frame_finish for a part of the picture; the rest of the image stays: views side by side on one G-buffer.
+ * @param part  inside the picture; all zero: all of it
+ */
+void nook_frame_finish_part(nook_renderer *renderer, const nook_frame *frame, nook_texture visibility, nook_view view,
+                            nook_rectangle part);
 
 nook_gbuffer nook_renderer_gbuffer(const nook_renderer *renderer);
 /** Clip from view of a camera at the renderer's size: what ambient occlusion needs beside the depth. */

@@ -100,9 +100,9 @@ void ao_targets_release(nook_gpu *gpu, ao_targets *targets);
 uint64_t ao_targets_bytes(const ao_targets *targets, uint32_t scale); /**< Those that a record of that scale uses. */
 
 /** @return NOOK_E_RANGE a part that leaves the picture */
-nook_result ao_region_check(const nook_ao *ao, const nook_ao_rectangle *part);
+nook_result ao_region_check(const nook_ao *ao, const nook_rectangle *part);
 /** @param scale 1, 2, 4 @param passes  after the trace, that read pixels around: 0, 1 filter, 2 filter and upscaling */
-ao_region ao_region_make(const nook_ao *ao, const nook_ao_rectangle *part, uint32_t scale, int32_t passes);
+ao_region ao_region_make(const nook_ao *ao, const nook_rectangle *part, uint32_t scale, int32_t passes);
 
 /**
  * How far distances read from the host's depth may be off, from its format: out_error[0] * z + out_error[1] * z^2 metres at z metres.

@@ -12,6 +12,7 @@
  * Memory   inputs are copied before the call returns, unless the field says otherwise.
  */
 #pragma once
+#include "engine/core/rectangle.h"
 #include "engine/core/result.h"
 #include <stddef.h>
 #include <stdint.h>
@@ -39,11 +40,6 @@ typedef struct nook_ao_texture {
     uint32_t native;
     uint32_t width, height; /**< Pixels. */
 } nook_ao_texture;
-
-/** A part of the picture, pixels; row 0 is at the bottom. All zero: the whole picture. */
-typedef struct nook_ao_rectangle {
-    uint32_t x, y, width, height;
-} nook_ao_rectangle;
 
 typedef struct nook_ao_desc {
     uint32_t version;       /**< NOOK_AO_VERSION. */
@@ -74,8 +70,8 @@ typedef struct nook_ao_frame {
                                  Give the geometric normal: rays below the true surface are nobody's occlusion. */
     uint32_t index;         /**< Seeds the noise. Same index, same pixels. */
     /** Only its visibility is computed, bit for bit as in a record of the whole picture; what lies outside stays as it was. So
-        several techniques can share one picture. Must lie inside. */
-    nook_ao_rectangle part;
+        several techniques can share one picture. All zero: the whole. */
+    nook_rectangle part;
     /** 1: depth, normals and both matrices are those of the last record, which are not read again. */
     int same_view;
     /** R32UI of the full size, cleared by the host; none: not counted. NOOK_AO_FETCH_UNITS for every texture fetch of a pixel are

@@ -6,12 +6,12 @@
    tile filter and upscaling read up to 3 away, shaders/ao/filter.comp.glsl. */
 enum { GROUP = 8, MARGIN_MIN = 4 };
 
-static int whole(const nook_ao_rectangle *part)
+static int whole(const nook_rectangle *part)
 {
     return part->x == 0 && part->y == 0 && part->width == 0 && part->height == 0;
 }
 
-nook_result ao_region_check(const nook_ao *ao, const nook_ao_rectangle *part)
+nook_result ao_region_check(const nook_ao *ao, const nook_rectangle *part)
 {
     int inside = part->width > 0 && part->height > 0 && part->x < ao->width && part->y < ao->height &&
                  part->width <= ao->width - part->x && part->height <= ao->height - part->y;
@@ -28,7 +28,7 @@ static int32_t filter_margin(const nook_ao *ao)
     return disc > MARGIN_MIN ? disc : MARGIN_MIN;
 }
 
-ao_region ao_region_make(const nook_ao *ao, const nook_ao_rectangle *part, uint32_t scale, int32_t passes)
+ao_region ao_region_make(const nook_ao *ao, const nook_rectangle *part, uint32_t scale, int32_t passes)
 {
     const int32_t size[2] = { (int32_t)ao->width, (int32_t)ao->height };
     ao_region region = { .full_end = { size[0], size[1] } };

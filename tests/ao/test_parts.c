@@ -16,8 +16,8 @@ static const char *const techniques[] = { "volume", "ssao", "hsao", "hbao", "gta
 static const char *const scales[] = { "full", "half", "quarter" };
 static const char *const filters[] = { "none", "disc", "tile" };
 static const char *const upscales[] = { "direct", "stepped" };
-static const nook_ao_rectangle parts[] = { { 0, 0, 33, HEIGHT }, { 17, 9, 1, 1 },   { 21, 5, 40, 13 },
-                                           { 66, 44, 1, 1 },     { 3, 30, 64, 15 }, { 0, 0, WIDTH, HEIGHT } };
+static const nook_rectangle parts[] = { { 0, 0, 33, HEIGHT }, { 17, 9, 1, 1 },   { 21, 5, 40, 13 },
+                                        { 66, 44, 1, 1 },     { 3, 30, 64, 15 }, { 0, 0, WIDTH, HEIGHT } };
 
 /** A room's corner with two boxes in it, one volume each, and sky beside. */
 static int setup(void **state)
@@ -52,7 +52,7 @@ static int teardown(void **state)
     return 0;
 }
 
-static bool inside(const nook_ao_rectangle *part, uint32_t x, uint32_t y)
+static bool inside(const nook_rectangle *part, uint32_t x, uint32_t y)
 {
     return x >= part->x && x - part->x < part->width && y >= part->y && y - part->y < part->height;
 }
@@ -60,7 +60,7 @@ static bool inside(const nook_ao_rectangle *part, uint32_t x, uint32_t y)
 /** All open: what a picture holds before a part of it is recorded. */
 static void record_open(nook_fixture_view *view)
 {
-    view->part = (nook_ao_rectangle){ 0 };
+    view->part = (nook_rectangle){ 0 };
     view->same_view = false;
     ao_view_record(view, "probe");
 }
@@ -99,7 +99,7 @@ static uint32_t compare_parts(nook_fixture_view *view, const char *technique, co
         ao_view_record(view, technique);
         expect_part(view, technique, whole, scale, filter);
     }
-    view->part = (nook_ao_rectangle){ 0 };
+    view->part = (nook_rectangle){ 0 };
     view->same_view = false;
     return dark;
 }
@@ -132,15 +132,15 @@ static void test_part_without_occluders_is_open_and_nothing_else_changes(void **
     ao_view_record(view, "volume");
     for (uint32_t i = 0; i < PIXELS; i++)
         assert_true(view->visibility[i] == (inside(&parts[2], i % WIDTH, i / WIDTH) ? 1.0f : before[i]));
-    view->part = (nook_ao_rectangle){ 0 };
+    view->part = (nook_rectangle){ 0 };
     view->occluder_count = occluders;
 }
 
 static void test_part_outside_of_the_picture_is_refused(void **state)
 {
-    static const nook_ao_rectangle wrong[] = { { 0, 0, WIDTH + 1, 1 },  { 0, HEIGHT, 1, 1 },    { 1, 0, WIDTH, 1 },
-                                               { 0, 0, 0, 1 },          { 5, 5, 1, 0 },         { 1, 0, 0, 0 },
-                                               { UINT32_MAX, 0, 2, 2 }, { 0, 2, 1, UINT32_MAX } };
+    static const nook_rectangle wrong[] = { { 0, 0, WIDTH + 1, 1 },  { 0, HEIGHT, 1, 1 },    { 1, 0, WIDTH, 1 },
+                                            { 0, 0, 0, 1 },          { 5, 5, 1, 0 },         { 1, 0, 0, 0 },
+                                            { UINT32_MAX, 0, 2, 2 }, { 0, 2, 1, UINT32_MAX } };
     nook_fixture_view *view = *state;
     for (size_t i = 0; i < NOOK_COUNT(wrong); i++) {
         nook_log_capture log;
@@ -151,7 +151,7 @@ static void test_part_outside_of_the_picture_is_refused(void **state)
         assert_int_equal(result, NOOK_E_RANGE);
         assert_int_equal(log.count, 1);
     }
-    view->part = (nook_ao_rectangle){ 0 };
+    view->part = (nook_rectangle){ 0 };
 }
 
 static void test_same_view_reads_the_host_s_buffers_only_when_their_copies_are_gone(void **state)
@@ -212,13 +212,13 @@ static void test_fetches_of_all_pixels_are_the_sum_that_is_counted(void **state)
         for (size_t s = 0; s < NOOK_COUNT(scales); s++) {
             ao_view_param(view, "ao.scale", scales[s]);
             ao_view_param(view, "ao.upscale", upscales[t % 2]);
-            view->part = (nook_ao_rectangle){ 0 };
+            view->part = (nook_rectangle){ 0 };
             expect_same_fetches(view, image, techniques[t]);
             view->part = parts[2];
             expect_same_fetches(view, image, techniques[t]);
         }
     }
-    view->part = (nook_ao_rectangle){ 0 };
+    view->part = (nook_rectangle){ 0 };
     ao_view_param(view, "ao.count", "0");
     nook_texture_destroy(view->gpu, &image);
 }
