@@ -13,7 +13,7 @@ DYED = {
 }
 RED = (0.40, 0.025, 0.018)
 NIGHT = (0.012, 0.009, 0.030)
-CORE = (0.045, 0.032, 0.17)  # linear light at the brightest place
+CORE = (0.020, 0.014, 0.075)  # linear light at the brightest place
 
 
 def make_finishes(folder):
@@ -64,7 +64,7 @@ def core_picture(rng, size=(128, 64)):
     """Light along the middle of a facet, brightest at a third of its height, with darker clouds in it."""
     rows, columns = size
     v, u = np.meshgrid((np.arange(rows) + 0.5) / rows, (np.arange(columns) + 0.5) / columns, indexing='ij')
-    across = np.exp(-(((u - 0.5) / 0.25) ** 2))
+    across = np.exp(-(((u - 0.5) / 0.34) ** 2))
     along = np.exp(-(((v - 0.34) / 0.26) ** 2))
     cloud = 0.35 + 0.9 * tex.clouds(rng, size, (6, 3), 4)
     return (across * along * cloud)[..., None] * np.array(CORE)
