@@ -82,6 +82,8 @@ library("nook_ecs", c_project, "engine/ecs", "/**.c")
 library("nook_physics", c_project, "engine/physics", "/**.c")
 library("nook_gltf", cpp_project, "engine/asset", "/**.cpp") -- the shim around tinygltf, behind a C header
 library("nook_asset", c_project, "engine/asset", "/**.c")
+library("nook_overlay", c_project, "engine/overlay", "/**.c")
+library("nook_imgui", cpp_project, "engine/overlay", "/**.cpp") -- the shim around Dear ImGui, behind the overlay's header
 library("nook_bake", c_project, "modules/bake", "/**.c")
 library("nook_ao", c_project, "modules/ao", "/*.c")
 library("nook_ao_ecs", c_project, "modules/ao/ecs", "/**.c") -- joins the two: the core itself knows no ECS
@@ -96,7 +98,7 @@ removefiles { "game/main.c" } -- of nook_game, the last project made
 
 local function link_everything()
   links(libraries)
-  links { "tinygltf", "stb", "embree3", "glfw", "uv", "ode", "zstd", "xxhash", "z", "bz2", "stdc++", "dl", "m" }
+  links { "tinygltf", "imgui", "stb", "embree3", "glfw", "uv", "ode", "zstd", "xxhash", "z", "bz2", "stdc++", "dl", "m" }
 end
 
 c_project("nook", "ConsoleApp")
