@@ -132,8 +132,7 @@ static physics_body describe(const nook_body_desc *desc, uint32_t id)
                            .user = desc->user,
                            .body_from_centre = here,
                            .previous = pose,
-                           .current = pose,
-                           .rest = pose };
+                           .current = pose };
 }
 
 nook_result nook_physics_add(nook_physics *physics, const nook_body_desc *desc, nook_body *out_body)
@@ -221,7 +220,7 @@ void nook_physics_set_pose(nook_physics *physics, nook_body body, const nook_pos
         return;
     nook_pose here = nook_pose_identity();
     nook_physics_wake_around(physics, b->id);
-    b->previous = b->current = b->rest = nook_pose_multiply(pose, &here);
+    b->previous = b->current = nook_pose_multiply(pose, &here);
     b->aimed = false;
     nook_physics_place(b);
     nook_physics_set_velocity(physics, body, no_velocity, no_velocity);

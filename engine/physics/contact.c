@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { FOUND_MAX = 96 }; /* contacts of one pair of shapes before they are merged */
+enum { FOUND_MAX = 512 }; /* contacts of one pair of shapes before they are merged */
 
 /* ---- pairs ---- */
 
@@ -43,12 +43,25 @@ static void append(nook_physics *p, const physics_body *first, const physics_bod
     }
 }
 
+/* What ODE finds, mended where it does not find enough, and thinned out. */
+static uint32_t find_points(dGeomID g1, dGeomID g2, dContactGeom found[FOUND_MAX])
+{
+    int class1 = dGeomGetClass(g1), class2 = dGeomGetClass(g2);
+    bool mesh = class1 == dTriMeshClass || class2 == dTriMeshClass;
+    int flags = mesh ? FOUND_MAX | (int)CONTACTS_UNIMPORTANT : FOUND_MAX; /* ODE need not thin them out: merge.c does */
+    uint32_t count = (uint32_t)dCollide(g1, g2, flags, found, sizeof *found);
+    if (mesh)
+        count = nook_physics_flatten_contacts(g1, g2, found, count, FOUND_MAX);
+    else if (class1 == dCylinderClass && class2 == dCylinderClass)
+        count = nook_physics_lay_cylinders(g1, g2, found, count, FOUND_MAX);
+    return nook_physics_merge_contacts(found, count);
+}
+
 /* @return whether they touch */
 static bool collide_pair(nook_physics *p, dGeomID g1, dGeomID g2)
 {
     dContactGeom found[FOUND_MAX];
-    uint32_t count = (uint32_t)dCollide(g1, g2, FOUND_MAX, found, sizeof *found);
-    count = nook_physics_merge_contacts(found, count);
+    uint32_t count = find_points(g1, g2, found);
     if (count == 0 || !reserve(p, count))
         return false;
     for (uint32_t i = 0; i < count; i++)
@@ -106,6 +119,7 @@ static void mark_activity(nook_physics *p)
         physics_body *body = p->bodies[i];
         bool moves = body->motion == NOOK_BODY_DYNAMIC ? dBodyIsEnabled(body->ode) : body->aimed;
         body->activity = moves ? PHYSICS_MOVES : PHYSICS_RESTS;
+        body->touches = false;
     }
 }
 
@@ -178,7 +192,8 @@ static bool friction_direction(const nook_physics *p, const physics_contact *c, 
 
 static void make_joint(nook_physics *p, physics_contact *c)
 {
-    const physics_body *a = nook_physics_find(p, (nook_body){ c->a }), *b = nook_physics_find(p, (nook_body){ c->b });
+    physics_body *a = nook_physics_find(p, (nook_body){ c->a }), *b = nook_physics_find(p, (nook_body){ c->b });
+    a->touches = b->touches = true;
     dContact contact = { .surface = { .mode = dContactApprox1, .mu = sqrt(a->friction * b->friction) } };
     double bounce = fmax(a->restitution, b->restitution), direction[3];
     if (bounce > 0.0) {

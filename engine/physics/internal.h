@@ -31,7 +31,9 @@ typedef enum physics_activity {
 typedef struct physics_body {
     uint32_t id;
     nook_body_motion motion;
-    bool upright, ghost, aimed; /* aimed: target is where the next step brings it */
+    bool upright, ghost;
+    bool touches; /* something, in this piece of a step */
+    bool aimed;   /* target is where the next step brings it */
     physics_activity activity;
     double friction, restitution, mass;
     uint64_t user;
@@ -41,12 +43,13 @@ typedef struct physics_body {
     uint32_t shape_count;
     nook_pose body_from_centre; /* of mass; never turned */
     double thickness;           /* of its thinnest shape, metres */
+    double rim;                 /* of its widest round shape: radius, metres */
     nook_pose previous, current, target;
     double force[3];
-    nook_pose rest;       /* where it began to rest */
-    uint32_t rest_steps;  /* since then */
-    uint32_t island;      /* while the step looks for who may sleep: index into bodies */
-    uint64_t query_stamp; /* of the last overlap query that met it */
+    double drift[3], spin[3]; /* what its velocities are on average of late */
+    uint32_t rest_steps;      /* that these have been those of a body at rest */
+    uint32_t island;          /* while the step looks for who may sleep: index into bodies */
+    uint64_t query_stamp;     /* of the last overlap query that met it */
 } physics_body;
 
 /* A point in which two bodies touch. Those of bodies that fell asleep are kept: their load and ground are asked for. */
@@ -107,8 +110,39 @@ void nook_physics_read_pose(physics_body *body);
 void nook_physics_collide(nook_physics *physics);
 /* Reads the forces of the joints and removes them. */
 void nook_physics_release_contacts(nook_physics *physics);
-/* At most 32 contacts of one pair of shapes become few that hold as well. @return how many; they stand first */
+
+/* ---- merge.c ---- */
+
+/* The contacts of a pair of shapes become few that hold as well. @return how many; they stand first */
 uint32_t nook_physics_merge_contacts(dContactGeom *contacts, uint32_t count);
+
+/* ---- face.c: outlines from which contacts are made ---- */
+
+enum { PHYSICS_OUTLINE_MAX = 16, PHYSICS_CLIPPED_MAX = 2 * PHYSICS_OUTLINE_MAX + 4 };
+
+/* A geom's own axis, 0 to 2, in the world. */
+void nook_physics_axis(dGeomID geom, int index, double out[3]);
+/* The face, or the line, with which a box or a cylinder lies on what has this normal. @return corners; 0: it is round */
+int nook_physics_face_against(dGeomID geom, const double normal[3], double outline[PHYSICS_OUTLINE_MAX][3]);
+/* Keeps of a polygon or a line what lies on the inner side of an edge (Sutherland and Hodgman 1974). @return corners */
+int nook_physics_clip(double points[PHYSICS_CLIPPED_MAX][3], int count, const double edge_point[3],
+                      const double inwards[3]);
+
+/* ---- cylinder_contact.c ---- */
+
+/* Contacts of two cylinders, from those that ODE found. @return how many there are now; at most capacity */
+uint32_t nook_physics_lay_cylinders(dGeomID g1, dGeomID g2, dContactGeom *contacts, uint32_t count, uint32_t capacity);
+
+/* ---- mesh_contact.c ---- */
+
+/* Mends contacts of which one shape is a mesh. @return how many there are now; at most capacity */
+uint32_t nook_physics_flatten_contacts(dGeomID g1, dGeomID g2, dContactGeom *contacts, uint32_t count,
+                                       uint32_t capacity);
+
+/* ---- sweep.c ---- */
+
+/* After the pieces of a step: brings a fast body back that went through a wall. */
+void nook_physics_stop_at_walls(nook_physics *physics, physics_body *body);
 
 /* ---- sleep.c ---- */
 

@@ -151,6 +151,8 @@ nook_result nook_physics_make_shapes(physics_body *body, const nook_body_desc *d
         if (result != NOOK_OK)
             return result;
         dGeomSetData(body->shapes[i].geom, body);
+        if (desc->shapes[i].kind != NOOK_SHAPE_BOX && desc->shapes[i].kind != NOOK_SHAPE_MESH)
+            body->rim = fmax(body->rim, desc->shapes[i].half[0]);
         body->thickness = fmin(body->thickness, thickness_of(&desc->shapes[i]));
     }
     return NOOK_OK;

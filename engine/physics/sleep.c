@@ -9,7 +9,6 @@ bool nook_physics_sleeps(const physics_body *body)
 void nook_physics_wake_body(physics_body *body)
 {
     body->rest_steps = 0;
-    body->rest = body->current;
     if (body->motion == NOOK_BODY_DYNAMIC)
         dBodyEnable(body->ode);
 }
@@ -41,13 +40,20 @@ bool nook_physics_asleep(const nook_physics *physics, nook_body body)
 
 /* ---- who may sleep ---- */
 
-static bool near_rest(const physics_body *body)
+/* From where it came, not from the velocities, which the solver leaves with what it takes back in the next step. Averages, as
+   resting bodies tremble. */
+static bool is_calm(physics_body *body)
 {
+    const double share = NOOK_PHYSICS_STEP / nook_physics_tuning.sleep_average;
     double way[3], turn[3];
-    nook_vector_add_scaled(body->current.position, -1.0, body->rest.position, way);
-    nook_pose_turn_rate(body->rest.rotation, body->current.rotation, 1.0, turn);
-    return nook_vector_length(way) <= nook_physics_tuning.sleep_metres &&
-           nook_vector_length(turn) <= nook_physics_tuning.sleep_radians;
+    nook_vector_add_scaled(body->current.position, -1.0, body->previous.position, way);
+    nook_pose_turn_rate(body->previous.rotation, body->current.rotation, NOOK_PHYSICS_STEP, turn);
+    for (int i = 0; i < 3; i++) {
+        body->drift[i] += share * (way[i] / NOOK_PHYSICS_STEP - body->drift[i]);
+        body->spin[i] += share * (turn[i] - body->spin[i]);
+    }
+    return nook_vector_length(body->drift) <= nook_physics_tuning.sleep_drift &&
+           nook_vector_length(body->spin) <= nook_physics_tuning.sleep_spin;
 }
 
 /* Islands as a forest over bodies that touch: each points at another of its island, the root at itself. */
@@ -94,10 +100,7 @@ void nook_physics_settle(nook_physics *physics)
         body->island = i;
         if (!is_awake(body))
             continue;
-        if (near_rest(body))
-            body->rest_steps++;
-        else
-            body->rest = body->current, body->rest_steps = 0;
+        body->rest_steps = is_calm(body) ? body->rest_steps + 1 : 0;
     }
     join_islands(physics);
     for (uint32_t i = 0; i < physics->body_count; i++) { /* an island sleeps no sooner than its last member */

@@ -27,29 +27,40 @@ static void begin(nook_physics *p)
     }
 }
 
-/* Fast and thin things would pass each other within one step: into how many it must be cut. */
+/* Fast and thin things would pass each other within one step: into how many pieces it is cut. */
 static int pieces_needed(const nook_physics *p)
 {
-    double most = 1.0;
+    double most = nook_physics_tuning.pieces_min;
     for (uint32_t i = 0; i < p->body_count; i++) {
         const physics_body *body = p->bodies[i];
         if (body->motion != NOOK_BODY_DYNAMIC || nook_physics_sleeps(body))
             continue;
         double way = nook_vector_length(dBodyGetLinearVel(body->ode)) * NOOK_PHYSICS_STEP;
-        most = fmax(most, way / (nook_physics_tuning.travel * body->thickness));
+        most = fmax(most, way / (nook_physics_tuning.piece_travel * body->thickness));
     }
-    return (int)fmin(ceil(most), nook_physics_tuning.pieces);
+    return (int)fmin(ceil(most), nook_physics_tuning.pieces_max);
 }
 
 /* ---- a piece ---- */
 
+/* What rolls is slowed down as by a force of rolling_resistance times its weight at its rim, and never turned round by that. */
+static double kept_turning(const nook_physics *p, const physics_body *body, double seconds)
+{
+    double kept = exp(-nook_physics_tuning.angular_loss * seconds);
+    if (body->rim == 0.0 || !body->touches)
+        return kept;
+    double speed = nook_vector_length(dBodyGetAngularVel(body->ode));
+    double lost = nook_physics_tuning.rolling_resistance * p->gravity / body->rim * seconds;
+    return lost < speed ? kept * (1.0 - lost / speed) : 0.0;
+}
+
 static void apply_forces(nook_physics *p, double seconds)
 {
-    const double kept = exp(-nook_physics_tuning.angular_loss * seconds);
     for (uint32_t i = 0; i < p->body_count; i++) {
         physics_body *body = p->bodies[i];
         if (body->motion != NOOK_BODY_DYNAMIC || nook_physics_sleeps(body))
             continue;
+        double kept = kept_turning(p, body, seconds);
         const double *w = dBodyGetAngularVel(body->ode);
         dBodyAddForce(body->ode, body->force[0], body->force[1], body->force[2]);
         dBodySetAngularVel(body->ode, kept * w[0], kept * w[1], kept * w[2]);
@@ -78,7 +89,7 @@ static bool finite_pose(const nook_pose *pose)
     return sum == 0.0; /* infinity less itself is NaN */
 }
 
-static void end_dynamic(physics_body *body)
+static void end_dynamic(nook_physics *p, physics_body *body)
 {
     if (body->upright) { /* its inertia is huge, not infinite */
         const dQuaternion q = { body->previous.rotation[3], body->previous.rotation[0], body->previous.rotation[1],
@@ -86,6 +97,7 @@ static void end_dynamic(physics_body *body)
         dBodySetQuaternion(body->ode, q);
         dBodySetAngularVel(body->ode, 0, 0, 0);
     }
+    nook_physics_stop_at_walls(p, body);
     nook_physics_read_pose(body);
     for (int i = 0; i < 3; i++)
         body->force[i] = 0.0;
@@ -97,7 +109,7 @@ static nook_result end(nook_physics *p)
     for (uint32_t i = 0; i < p->body_count; i++) {
         physics_body *body = p->bodies[i];
         if (body->motion == NOOK_BODY_DYNAMIC && !nook_physics_sleeps(body)) {
-            end_dynamic(body);
+            end_dynamic(p, body);
             if (!finite_pose(&body->current))
                 result = nook_fail(NOOK_E_RANGE, "physics: body %u is nowhere after step %llu; please report it",
                                    body->id, (unsigned long long)p->steps);
@@ -118,8 +130,8 @@ nook_result nook_physics_step(nook_physics *physics)
     nook_physics_lock();
     for (int i = 0; i < pieces; i++)
         advance(physics, NOOK_PHYSICS_STEP / pieces);
-    nook_physics_unlock();
     nook_result result = end(physics);
+    nook_physics_unlock();
     nook_physics_settle(physics);
     physics->steps++;
     physics->statistics.contacts = physics->contact_count - physics->kept_count;

@@ -50,6 +50,7 @@ static void set_up_world(nook_physics *p)
     dWorldSetGravity(p->world, 0, -p->gravity, 0);
     dWorldSetERP(p->world, t->error_reduction);
     dWorldSetCFM(p->world, t->force_mixing);
+    dWorldSetQuickStepW(p->world, t->relaxation);
     dWorldSetQuickStepNumIterations(p->world, (int)t->iterations);
     dWorldSetContactMaxCorrectingVel(p->world, t->contact_speed);
     dWorldSetContactSurfaceLayer(p->world, t->contact_layer);
