@@ -4,6 +4,7 @@
 #include "game/measure/measure_origin.h"
 #include "game/measure/measure_pictures.h"
 #include "game/measure/measure_views.h"
+#include "game/measure/site_time.h"
 #include "modules/ao/technique.h"
 #include <stdlib.h>
 #include <string.h>
@@ -42,6 +43,13 @@ static bool is_pending(const reach *r, uint32_t view, const nook_setting *settin
     nook_result_row row = make_row(r, view, setting, text);
     return nook_results_find(r->run->results, &row) == NULL;
 }
+
+/* What is still to be measured of one setting at one view. */
+typedef struct pending_row {
+    uint32_t view;
+    const nook_setting *setting;
+    nook_site_times times;
+} pending_row;
 
 /* ---- Sites ------------------------------------------------------------------------------------------------------ */
 
@@ -115,22 +123,67 @@ static nook_result keep_row(reach *r, nook_result_row *row)
     return result == NOOK_OK ? nook_results_put(r->run->results, row) : result;
 }
 
-static nook_result measure_row(reach *r, uint32_t view, const nook_setting *setting)
+/* One frame of an exact technique is timed as it is measured. */
+static nook_result measure_row(reach *r, const pending_row *pending)
 {
     char text[NOOK_SETTING_TEXT_MAX];
-    nook_result_row row = make_row(r, view, setting, text);
+    bool in_rounds = pending->times.rounds > 0;
+    nook_result_row row = make_row(r, pending->view, pending->setting, text);
     nook_measure_progress_show(&r->run->progress, &row);
-    nook_result result = open_site(r, view);
-    if (result != NOOK_OK || nook_interrupt_asked())
-        return result;
-    result = nook_site_measure(r->sites[view], setting, NOOK_MEASURE_ALL, &row.sample);
+    nook_result result =
+        nook_site_measure(r->sites[pending->view], pending->setting,
+                          in_rounds ? NOOK_MEASURE_ALL & ~NOOK_MEASURE_TIME : NOOK_MEASURE_ALL, &row.sample);
     if (result != NOOK_OK)
         return result;
+    if (in_rounds)
+        nook_site_times_put(&pending->times, &row.sample);
     if (!nook_interrupt_asked()) /* else its truth may not be what it should be */
         result = keep_row(r, &row);
     nook_grey_free(&row.sample.visibility);
     if (result == NOOK_OK && !nook_interrupt_asked())
         nook_measure_progress_row(&r->run->progress, &row);
+    return result;
+}
+
+static nook_result measure_rows(reach *r, const pending_row *rows, size_t count)
+{
+    nook_result result = NOOK_OK;
+    for (size_t i = 0; i < count && result == NOOK_OK && !nook_interrupt_asked(); i++)
+        result = measure_row(r, &rows[i]);
+    return result;
+}
+
+/* ---- Times ------------------------------------------------------------------------------------------------------ */
+
+/* Ordered by view: each one's G-buffer is drawn once. */
+static nook_result time_round(reach *r, pending_row *rows, size_t count)
+{
+    uint32_t shown = UINT32_MAX;
+    nook_result result = NOOK_OK;
+    for (size_t i = 0; i < count && result == NOOK_OK && !nook_interrupt_asked(); i++) {
+        char text[NOOK_SETTING_TEXT_MAX];
+        pending_row *pending = &rows[i];
+        nook_result_row row = make_row(r, pending->view, pending->setting, text);
+        if (pending->setting->technique->exact)
+            continue;
+        nook_measure_progress_show(&r->run->progress, &row);
+        if (pending->view != shown)
+            result = nook_site_show(r->sites[pending->view]);
+        shown = pending->view;
+        if (result == NOOK_OK)
+            result = nook_site_time_round(r->sites[pending->view], pending->setting, &pending->times);
+    }
+    return result;
+}
+
+/* Sites first: their truths are traced by all cores. */
+static nook_result time_rows(reach *r, pending_row *rows, size_t count)
+{
+    nook_result result = NOOK_OK;
+    for (size_t i = 0; i < count && result == NOOK_OK && !nook_interrupt_asked(); i++)
+        result = open_site(r, rows[i].view);
+    for (int round = 0; round < NOOK_SITE_ROUNDS && result == NOOK_OK; round++)
+        result = time_round(r, rows, count);
     return result;
 }
 
@@ -145,39 +198,46 @@ static nook_result fill(reach *r, uint32_t resolution, bool volumes)
     return result == NOOK_OK ? nook_measure_views_find(r->stage->scene, aspect, r->views) : result;
 }
 
-/* Settings that read volumes of a resolution, or those that read none. */
-static bool belongs(const nook_setting *setting, uint32_t resolution, bool volumes)
-{
-    return reads_volumes(setting) == volumes && setting->resolution == resolution;
-}
-
-static nook_result measure_group(reach *r, uint32_t resolution, bool volumes)
+/* @param out_rows  as many as settings times views @param out_volumes  whether any of them reads volumes @return how many */
+static size_t list_pending(const reach *r, uint32_t resolution, pending_row *out_rows, bool *out_volumes)
 {
     const nook_sweep *sweep = r->run->sweep;
-    bool filled = false;
-    nook_result result = NOOK_OK;
-    for (size_t k = 0; k < sweep->setting_count * r->views->count && result == NOOK_OK; k++) {
+    size_t count = 0;
+    *out_volumes = false;
+    for (size_t k = 0; k < sweep->setting_count * r->views->count; k++) {
         uint32_t view = (uint32_t)(k / sweep->setting_count);
         const nook_setting *setting = &sweep->settings[k % sweep->setting_count];
-        if (nook_interrupt_asked())
-            break;
-        if (!belongs(setting, resolution, volumes) || !is_pending(r, view, setting))
+        if (setting->resolution != resolution || !is_pending(r, view, setting))
             continue;
-        if (!filled)
-            result = fill(r, resolution, volumes);
-        filled = true;
-        if (result == NOOK_OK)
-            result = measure_row(r, view, setting);
+        out_rows[count++] = (pending_row){ .view = view, .setting = setting };
+        *out_volumes = *out_volumes || reads_volumes(setting);
     }
+    return count;
+}
+
+/* All settings of one resolution, also those that read no volumes: they take turns. Interrupted, what was only timed is lost. */
+static nook_result measure_group(reach *r, uint32_t resolution)
+{
+    size_t most = r->run->sweep->setting_count * r->views->count;
+    bool volumes;
+    pending_row *rows = calloc(most, sizeof *rows);
+    if (!rows)
+        return nook_fail(NOOK_E_MEMORY, "no memory for %zu rows", most);
+    size_t count = list_pending(r, resolution, rows, &volumes);
+    nook_result result = count > 0 ? fill(r, resolution, volumes) : NOOK_OK;
+    if (result == NOOK_OK)
+        result = time_rows(r, rows, count);
+    if (result == NOOK_OK)
+        result = measure_rows(r, rows, count);
+    free(rows);
     return result;
 }
 
 /* A group stands where its first setting does. */
 static bool is_first_of_group(const nook_sweep *sweep, size_t index)
 {
-    const nook_setting *setting = &sweep->settings[index];
     for (size_t i = 0; i < index; i++) {
-        if (belongs(&sweep->settings[i], setting->resolution, reads_volumes(setting)))
+        if (sweep->settings[i].resolution == sweep->settings[index].resolution)
             return false;
     }
     return true;
@@ -188,8 +248,8 @@ static nook_result measure_groups(reach *r)
     const nook_sweep *sweep = r->run->sweep;
     nook_result result = NOOK_OK;
     for (size_t i = 0; i < sweep->setting_count && result == NOOK_OK; i++) {
-        if (is_first_of_group(sweep, i))
-            result = measure_group(r, sweep->settings[i].resolution, reads_volumes(&sweep->settings[i]));
+        if (is_first_of_group(sweep, i) && !nook_interrupt_asked())
+            result = measure_group(r, sweep->settings[i].resolution);
     }
     return result == NOOK_OK ? finish_sites(r) : result;
 }

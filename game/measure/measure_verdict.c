@@ -56,6 +56,12 @@ double nook_measure_noise_part(const nook_sample *sample, bool screen, const cha
     return largest_part(errors, NOOK_COUNT(errors), out_error);
 }
 
+uint64_t nook_sample_non_finite(const nook_sample *sample)
+{
+    return sample->truth.non_finite + sample->screen.non_finite + sample->noise_non_finite +
+           sample->instability.non_finite + sample->flicker_non_finite;
+}
+
 nook_measure_verdict nook_measure_judge(const nook_results *results)
 {
     nook_measure_verdict verdict = { .largest_part = 0.0, .worst_error = "" };
@@ -66,7 +72,7 @@ nook_measure_verdict nook_measure_judge(const nook_results *results)
         double truth = nook_measure_noise_part(sample, false, &of_truth);
         double screen = sample->screen.count > 0 ? nook_measure_noise_part(sample, true, &of_screen) : 0.0;
         double part = fmax(truth, screen);
-        verdict.non_finite += sample->truth.non_finite + sample->instability.non_finite;
+        verdict.non_finite += nook_sample_non_finite(sample);
         verdict.outside += sample->outside;
         verdict.over += part > NOOK_MEASURE_NOISE_PART;
         if (verdict.worst && part <= verdict.largest_part)

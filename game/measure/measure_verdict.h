@@ -14,13 +14,19 @@
  */
 double nook_measure_noise_part(const nook_sample *sample, bool screen, const char **out_error);
 
+/**
+ * Values that a number of the sample would have needed and that are NaN or infinite: of the picture against either truth, between
+ * seeds, against the second camera, along the path. One pixel counts in each that needs it.
+ */
+uint64_t nook_sample_non_finite(const nook_sample *sample);
+
 /** Whether results can be believed. */
 typedef struct nook_measure_verdict {
     double largest_part;          /**< Of noise and error, over all errors against either truth; 0 without rows. */
     const nook_result_row *worst; /**< Where; NULL without rows. Borrowed. */
     const char *worst_error;      /**< "RMSE", "MAE against the screen's truth", ...; "" without rows. */
     size_t over;                  /**< Rows with more than NOOK_MEASURE_NOISE_PART. */
-    uint64_t non_finite;          /**< Pixels. */
+    uint64_t non_finite;          /**< nook_sample_non_finite of all rows. */
     uint64_t outside;             /**< Visibilities that were clamped into [0, 1]: nook_sample.outside. */
 } nook_measure_verdict;
 

@@ -105,7 +105,8 @@ static void put_head(FILE *out, const nook_results *results, const char *command
           "instability are "
           "roots of mean\nsquares; p99, max, memory and bake time are those of the worst camera. What each is: "
           "[measuring.md](measuring.md#numbers).\n"
-          "Rows were timed one after another, 3 to 9 frames each: medians of rows within a few percent are not in "
+          "Settings took turns, three to five each; ms is that of the middle turn: settings within a few percent are "
+          "not in "
           "order.\n",
           out);
 }

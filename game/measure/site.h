@@ -27,7 +27,7 @@ typedef struct nook_site_desc {
 
 /** What of a sample is wanted; the rest is NaN. Errors against the truth and fetches are always there. */
 enum {
-    NOOK_MEASURE_TIME = 1,   /**< ms. */
+    NOOK_MEASURE_TIME = 1,   /**< ms, all rounds at once: to compare settings, take turns (site_time.h). */
     NOOK_MEASURE_SCREEN = 2, /**< Errors against what the depth buffer holds. */
     NOOK_MEASURE_STEADINESS =
         4,                    /**< Instability, noise, flicker; not of exact techniques, whose frames take seconds. */
@@ -37,26 +37,30 @@ enum {
 
 /** What one setting measured at one site. Errors are of visibility; NaN where not asked for or not to be had. */
 typedef struct nook_sample {
-    double ms_median, ms_min, ms_max; /**< Of one nook_ao_record, wall clock around glFinish. */
+    double ms_median, ms_min, ms_max; /**< Of the medians of rounds (site_time.h); exact techniques: of one frame. */
     double gpu_ms_median;             /**< NaN where timer queries lie. */
-    uint32_t frames;                  /**< Timed. */
+    uint32_t frames;                  /**< Timed, in all rounds. */
     double fetches;                   /**< Texture fetches per full-size pixel with geometry. */
     double volume_bytes;              /**< Of the volumes on the GPU; 0 for techniques that read none. */
     double texture_bytes;             /**< Of the AO's own textures at this size and scale. */
-    double bake_ms;   /**< Baking all volumes; 0 for techniques that read none, NaN: some came from a cache. */
-    uint64_t outside; /**< Visibilities that were NaN, negative or above 1 before they were clamped: 0, or a mistake. */
-    nook_errors truth;   /**< Against rays through the scene. */
-    nook_errors screen;  /**< Against rays through the surfaces that the depth buffer shows; NaN for such rays. */
-    double ssim;         /**< Mean structural similarity with the truth, 1 = equal. */
-    double ssim_ceiling; /**< About what a picture without any error would have: the truth's noise lowers it. */
-    double rmse_inside;  /**< RMSE on the near side of silhouettes, within a few pixels of them. */
-    double rmse_outside; /**< ... on the far side, where halos are. */
-    double rmse_away;    /**< ... everywhere else. */
-    double noise;        /**< Standard deviation between seeds, RMS over pixels. */
+    double bake_ms; /**< Baking all volumes; 0 for techniques that read none, NaN: some came from a cache. */
+    uint64_t
+        outside; /**< Visibilities of all frames but the timed ones that were NaN, negative or above 1 before they were
+                           clamped: 0, or a mistake. Nothing is counted of exact techniques. */
+    nook_errors truth;         /**< Against rays through the scene. */
+    nook_errors screen;        /**< Against rays through the surfaces that the depth buffer shows; NaN for such rays. */
+    double ssim;               /**< Mean structural similarity with the truth, 1 = equal. */
+    double ssim_ceiling;       /**< About what a picture without any error would have: the truth's noise lowers it. */
+    double rmse_inside;        /**< RMSE on the near side of silhouettes, within a few pixels of them. */
+    double rmse_outside;       /**< ... on the far side, where halos are. */
+    double rmse_away;          /**< ... everywhere else. */
+    double noise;              /**< Standard deviation between seeds, RMS over pixels. */
+    uint64_t noise_non_finite; /**< Pixels that hold a NaN or an infinity in any of its pictures; noise is NaN then. */
     nook_instability instability; /**< Against a second camera (game/compare/second_view.h). */
-    double flicker;          /**< RMS change at the same points between consecutive frames of a short camera path. */
-    double reference_noise;  /**< Of the truth, RMS: it stands in quadrature in truth.rmse. */
-    uint32_t reference_rays; /**< Per pixel. */
+    double flicker; /**< RMS change at the same points between consecutive frames of a short camera path. */
+    uint64_t flicker_non_finite;                    /**< As noise_non_finite, over the points of all pairs of frames. */
+    double reference_noise;                         /**< Of the truth, RMS: it stands in quadrature in truth.rmse. */
+    uint32_t reference_rays;                        /**< Per pixel. */
     double noise_inside, noise_outside, noise_away; /**< As reference_noise, over the pixels of rmse_inside, ... */
     double screen_noise;  /**< As reference_noise, of the truth that `screen` was measured against. */
     nook_grey visibility; /**< NOOK_MEASURE_PICTURE: owned by the caller. */

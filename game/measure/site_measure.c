@@ -1,14 +1,14 @@
-#include "engine/core/clock.h"
 #include "game/compare/frame_times.h"
 #include "game/compare/run.h"
 #include "game/measure/site_internal.h"
+#include "game/measure/site_time.h"
 #include "game/stage.h"
 #include "modules/ao/technique.h"
 #include "modules/measure/noise.h"
 #include <assert.h>
 #include <math.h>
 
-enum { FRAMES_MIN = 3, FRAMES_MAX = 9, TIMING_MS = 400, WARM_UPS = 2, SEEDS = 2 };
+enum { SEEDS = 2 };
 
 static nook_sample empty_sample(void)
 {
@@ -48,51 +48,23 @@ static double sum_bake_ms(const nook_game_world *world)
     return sum;
 }
 
-/* Counting slows the shaders down, so it has a frame of its own; that one warms up what the others share with it. */
-static nook_result count(nook_site *site, const nook_ao_technique *technique, nook_sample *sample)
+/* All rounds at once: where settings are compared, their caller takes turns (site_time.h). */
+static nook_result time_rounds(nook_site *site, const nook_setting *setting, nook_sample *sample)
 {
-    nook_ao *ao = site->stage->ao;
-    nook_ao_statistics statistics;
-    nook_result result = nook_ao_set_param(ao, "ao.count", 1.0);
-    if (result == NOOK_OK)
-        result = nook_stage_occlude(site->stage);
-    if (result != NOOK_OK)
-        return result;
-    nook_ao_get_statistics(ao, &statistics);
-    bool volumes = technique->inputs & NOOK_AO_IN_VOLUMES;
-    sample->fetches = statistics.fetches_per_pixel;
-    sample->outside = statistics.outside;
-    sample->volume_bytes = volumes ? (double)statistics.volume_bytes : 0.0;
-    sample->texture_bytes = (double)statistics.texture_bytes;
-    sample->bake_ms = volumes ? sum_bake_ms(site->stage->world) : 0.0;
-    return nook_ao_set_param(ao, "ao.count", 0.0);
-}
-
-/* As many frames as fit, told from the second of two that warm up: the first links and compiles, as without counting it is another
-   program. */
-static nook_result warm_up(nook_site *site, uint32_t *out_frames)
-{
-    double start = 0.0;
+    nook_site_times times = { 0 };
     nook_result result = NOOK_OK;
-    for (int i = 0; i < WARM_UPS && result == NOOK_OK; i++) {
-        nook_gpu_finish(site->stage->gpu);
-        start = nook_clock_ms();
-        result = nook_stage_occlude(site->stage);
-    }
-    nook_gpu_finish(site->stage->gpu);
-    double frames = TIMING_MS / fmax(nook_clock_ms() - start, 1e-3);
-    *out_frames = (uint32_t)fmin(fmax(frames, FRAMES_MIN), FRAMES_MAX);
+    for (int round = 0; round < NOOK_SITE_ROUNDS && result == NOOK_OK; round++)
+        result = nook_site_time_round(site, setting, &times);
+    if (result == NOOK_OK)
+        nook_site_times_put(&times, sample);
     return result;
 }
 
-/* The last frame is the picture that is measured. */
-static nook_result time_frames(nook_site *site, const nook_ao_technique *technique, nook_sample *sample)
+/* A frame of an exact technique takes seconds: the only one is timed. */
+static nook_result time_exact(nook_site *site, nook_sample *sample)
 {
     nook_frame_times times;
-    uint32_t frames = 1;
-    nook_result result = technique->exact ? NOOK_OK : warm_up(site, &frames);
-    if (result == NOOK_OK)
-        result = nook_frame_times_measure(site->stage, frames, INFINITY, &times);
+    nook_result result = nook_frame_times_measure(site->stage, 1, INFINITY, &times);
     if (result != NOOK_OK)
         return result;
     sample->ms_median = times.median;
@@ -103,20 +75,51 @@ static nook_result time_frames(nook_site *site, const nook_ao_technique *techniq
     return NOOK_OK;
 }
 
+/* A frame that is not timed: its shaders count. */
+static nook_result occlude(nook_site *site, nook_sample *sample, nook_ao_statistics *out_statistics)
+{
+    nook_result result = nook_stage_occlude(site->stage);
+    if (result != NOOK_OK)
+        return result;
+    nook_ao_get_statistics(site->stage->ao, out_statistics);
+    sample->outside += out_statistics->outside;
+    return NOOK_OK;
+}
+
+/* The picture that is measured, and what it costs beside time. */
+static nook_result take_picture(nook_site *site, const nook_setting *setting, uint32_t what, nook_sample *sample,
+                                nook_grey *out_picture)
+{
+    const nook_ao_technique *technique = setting->technique;
+    bool volumes = technique->inputs & NOOK_AO_IN_VOLUMES, timed = technique->exact && what & NOOK_MEASURE_TIME;
+    nook_ao_statistics statistics;
+    nook_result result = timed ? time_exact(site, sample) : NOOK_OK;
+    if (!timed)
+        result = occlude(site, sample, &statistics);
+    if (result == NOOK_OK && !technique->exact) {
+        sample->fetches = statistics.fetches_per_pixel;
+        sample->volume_bytes = volumes ? (double)statistics.volume_bytes : 0.0;
+        sample->texture_bytes = (double)statistics.texture_bytes;
+        sample->bake_ms = volumes ? sum_bake_ms(site->stage->world) : 0.0;
+    }
+    return result == NOOK_OK ? nook_compare_read_visibility(site->stage, out_picture) : result;
+}
+
 /* ---- Steadiness ------------------------------------------------------------------------------------------------- */
 
-static nook_result record(nook_site *site, uint32_t seed, nook_grey *out_picture)
+static nook_result record(nook_site *site, uint32_t seed, nook_sample *sample, nook_grey *out_picture)
 {
+    nook_ao_statistics statistics;
     site->stage->frame_index = seed;
-    nook_result result = nook_stage_occlude(site->stage);
+    nook_result result = occlude(site, sample, &statistics);
     site->stage->frame_index = 0;
     return result == NOOK_OK ? nook_compare_read_visibility(site->stage, out_picture) : result;
 }
 
-static nook_result record_from(nook_site *site, const nook_camera *camera, nook_grey *out_picture)
+static nook_result record_from(nook_site *site, const nook_camera *camera, nook_sample *sample, nook_grey *out_picture)
 {
     nook_result result = nook_stage_begin(site->stage, camera);
-    return result == NOOK_OK ? record(site, 0, out_picture) : result;
+    return result == NOOK_OK ? record(site, 0, sample, out_picture) : result;
 }
 
 static nook_result measure_noise(nook_site *site, const nook_grey *picture, nook_sample *sample)
@@ -125,11 +128,14 @@ static nook_result measure_noise(nook_site *site, const nook_grey *picture, nook
     const float *pictures[SEEDS] = { picture->values };
     nook_result result = NOOK_OK;
     for (uint32_t i = 1; i < SEEDS && result == NOOK_OK; i++) {
-        result = record(site, i, &others[i - 1]);
+        result = record(site, i, sample, &others[i - 1]);
         pictures[i] = others[i - 1].values;
     }
-    if (result == NOOK_OK)
-        sample->noise = nook_noise_measure(pictures, SEEDS, site->geometry, (size_t)site->width * site->height).rms;
+    if (result == NOOK_OK) {
+        nook_noise noise = nook_noise_measure(pictures, SEEDS, site->geometry, (size_t)site->width * site->height);
+        sample->noise = noise.rms;
+        sample->noise_non_finite = noise.non_finite;
+    }
     for (size_t i = 0; i < NOOK_COUNT(others); i++)
         nook_grey_free(&others[i]);
     return result;
@@ -138,7 +144,7 @@ static nook_result measure_noise(nook_site *site, const nook_grey *picture, nook
 static nook_result measure_instability(nook_site *site, const nook_grey *picture, nook_sample *sample)
 {
     nook_grey second;
-    nook_result result = record_from(site, &site->views.second.camera, &second);
+    nook_result result = record_from(site, &site->views.second.camera, sample, &second);
     if (result != NOOK_OK)
         return result;
     sample->instability = nook_instability_measure(&site->views.second_match, picture->values, second.values);
@@ -152,11 +158,14 @@ static nook_result measure_flicker(nook_site *site, const nook_grey *picture, no
     const float *pictures[NOOK_PATH_VIEWS] = { picture->values };
     nook_result result = NOOK_OK;
     for (int i = 1; i < NOOK_PATH_VIEWS && result == NOOK_OK; i++) {
-        result = record_from(site, &site->views.path[i], &others[i - 1]);
+        result = record_from(site, &site->views.path[i], sample, &others[i - 1]);
         pictures[i] = others[i - 1].values;
     }
-    if (result == NOOK_OK)
-        sample->flicker = nook_flicker_measure(site->views.path_matches, pictures, NOOK_PATH_VIEWS).rms;
+    if (result == NOOK_OK) {
+        nook_noise flicker = nook_flicker_measure(site->views.path_matches, pictures, NOOK_PATH_VIEWS);
+        sample->flicker = flicker.rms;
+        sample->flicker_non_finite = flicker.non_finite;
+    }
     for (size_t i = 0; i < NOOK_COUNT(others); i++)
         nook_grey_free(&others[i]);
     return result;
@@ -190,26 +199,32 @@ static bool is_as_it_was(const nook_site *site)
     return r_max == site->r_max && site->width == site->stage->width && site->height == site->stage->height;
 }
 
+/* With counting, which slows the shaders down: times are not taken here but of exact techniques, which count nothing. */
+static nook_result measure_counted(nook_site *site, const nook_setting *setting, uint32_t what, nook_grey *picture,
+                                   nook_sample *sample)
+{
+    nook_result result = nook_ao_set_param(site->stage->ao, "ao.count", 1.0);
+    if (result == NOOK_OK)
+        result = take_picture(site, setting, what, sample, picture);
+    if (result == NOOK_OK)
+        result = measure_picture(site, setting, what, picture, sample);
+    nook_result reset = nook_ao_set_param(site->stage->ao, "ao.count", 0.0);
+    return result == NOOK_OK ? reset : result;
+}
+
 nook_result nook_site_measure(nook_site *site, const nook_setting *setting, uint32_t what, nook_sample *out_sample)
 {
     assert((what & ~site->what) == 0 && "a site is opened for all that is asked of it");
     assert(is_as_it_was(site) && "r_max and size are the site's");
     nook_sample sample = empty_sample();
     nook_grey picture = { 0 };
-    site->stage->frame_index = 0;
-    nook_result result = nook_stage_begin(site->stage, &site->camera);
+    nook_result result = nook_site_show(site);
     if (result == NOOK_OK)
         result = nook_setting_apply(site->stage->ao, setting);
-    if (result == NOOK_OK && !setting->technique->exact)
-        result = count(site, setting->technique, &sample);
-    if (result == NOOK_OK && what & NOOK_MEASURE_TIME)
-        result = time_frames(site, setting->technique, &sample);
-    else if (result == NOOK_OK)
-        result = nook_stage_occlude(site->stage);
+    if (result == NOOK_OK && what & NOOK_MEASURE_TIME && !setting->technique->exact)
+        result = time_rounds(site, setting, &sample);
     if (result == NOOK_OK)
-        result = nook_compare_read_visibility(site->stage, &picture);
-    if (result == NOOK_OK)
-        result = measure_picture(site, setting, what, &picture, &sample);
+        result = measure_counted(site, setting, what, &picture, &sample);
     if (result == NOOK_OK && what & NOOK_MEASURE_PICTURE)
         sample.visibility = picture;
     else

@@ -73,9 +73,11 @@ nook_result nook_tune_views_measure(nook_tune_views *views, const nook_setting *
         result = nook_site_measure(views->sites[set][view], setting, timed ? NOOK_MEASURE_TIME : 0, &sample);
     if (result != NOOK_OK)
         return result;
-    if (!sample.truth.valid)
-        return nook_fail(NOOK_E_DEVICE, "%s: %llu pixels are not finite; its error means nothing",
-                         setting->technique->name, (unsigned long long)sample.truth.non_finite);
+    if (!sample.truth.valid || sample.outside > 0)
+        return nook_fail(
+            NOOK_E_DEVICE,
+            "%s: %llu pixels are not finite and %llu visibilities outside of [0, 1]; its error means nothing",
+            setting->technique->name, (unsigned long long)sample.truth.non_finite, (unsigned long long)sample.outside);
     /* The truth's noise is chance of its own: its square is a part of the squared difference, and known. */
     double noise = sample.reference_noise;
     *out = (nook_tune_view){ .squared = sample.truth.rmse * sample.truth.rmse - noise * noise,

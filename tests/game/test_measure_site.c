@@ -2,8 +2,9 @@
 #include "engine/core/file.h"
 #include "game/compare/camera.h"
 #include "game/measure/scene_hash.h"
-#include "game/measure/site.h"
+#include "game/measure/site_time.h"
 #include "game/stage.h"
+#include "modules/ao/technique.h"
 #include "modules/ao_reference/reference.h"
 #include "tests/support/log_capture.h"
 #include "tests/support/scratch.h"
@@ -253,6 +254,70 @@ static void test_a_setting_measures_the_same_twice_and_after_others(void **state
     nook_site_close(site);
 }
 
+static nook_result record_late_mistake(void *state, const void *params, const nook_ao_pass *pass)
+{
+    (void)state, (void)params;
+    return nook_ao_pass_dispatch(pass, "tests/game/late_mistake.comp.glsl", 16, 8);
+}
+
+static const nook_ao_technique late_mistake = { .version = NOOK_AO_TECHNIQUE_VERSION,
+                                                .name = "late_mistake",
+                                                .summary = "Above 1 with any seed but the first",
+                                                .record = record_late_mistake };
+
+static void test_values_out_of_range_are_counted_in_every_frame_that_is_not_timed(void **state)
+{
+    fixture *f = *state;
+    uint64_t pixels = 0;
+    nook_sample sample;
+    const nook_setting setting = nook_setting_initial(&late_mistake);
+    assert_int_equal(nook_ao_add_technique(f->stage.ao, &late_mistake), NOOK_OK);
+    nook_site *site = open_site(f, NULL, 1.0, 64, NOOK_MEASURE_STEADINESS);
+    for (size_t i = 0; i < PIXELS; i++)
+        pixels += nook_site_geometry(site)[i] != 0;
+    assert_int_equal(nook_site_measure(site, &setting, 0, &sample), NOOK_OK);
+    assert_int_equal(sample.outside, 0);
+    assert_int_equal(nook_site_measure(site, &setting, NOOK_MEASURE_STEADINESS, &sample), NOOK_OK);
+    assert_int_equal(sample.outside, pixels);
+    nook_site_close(site);
+}
+
+/* Frames that take 10 ms, and a round in which the machine did something else. */
+static void test_times_are_those_of_the_middle_round(void **state)
+{
+    (void)state;
+    nook_sample sample = { 0 };
+    const nook_site_times times = {
+        .rounds = 5, .frames = 3, .ms = { 11, 10, 95, 12, 9 }, .gpu_ms = { 3, 1, 2, 5, 4 }
+    };
+    nook_site_times_put(&times, &sample);
+    assert_true(sample.ms_median == 11.0 && sample.ms_min == 9.0 && sample.ms_max == 95.0);
+    assert_true(sample.gpu_ms_median == 3.0);
+    assert_int_equal(sample.frames, 15);
+}
+
+static void test_settings_take_turns_and_each_round_is_one_time(void **state)
+{
+    static const char *const texts[] = { "ssao", "volume ao.scale=half" };
+    fixture *f = *state;
+    nook_site *site = open_site(f, NULL, 1.0, 64, NOOK_MEASURE_TIME);
+    nook_setting settings[2];
+    nook_site_times times[2] = { 0 };
+    for (int i = 0; i < 2; i++)
+        assert_int_equal(nook_setting_parse("test", texts[i], &settings[i]), NOOK_OK);
+    assert_int_equal(nook_site_show(site), NOOK_OK);
+    for (int round = 0; round < NOOK_SITE_ROUNDS; round++) {
+        for (int i = 0; i < 2; i++) {
+            assert_int_equal(nook_site_time_round(site, &settings[i], &times[i]), NOOK_OK);
+            assert_in_range(times[i].wanted, NOOK_SITE_ROUNDS_SLOW, NOOK_SITE_ROUNDS);
+            assert_int_equal(times[i].rounds,
+                             (uint32_t)round < times[i].wanted ? (uint32_t)round + 1 : times[i].wanted);
+            assert_true(times[i].frames >= 1 && times[i].ms[times[i].rounds - 1] > 0.0);
+        }
+    }
+    nook_site_close(site);
+}
+
 static void test_what_is_not_asked_for_is_not_a_number(void **state)
 {
     fixture *f = *state;
@@ -271,7 +336,7 @@ static void test_all_that_is_asked_for_is_measured(void **state)
     nook_site *site = open_site(f, NULL, 0.01, 4096, NOOK_MEASURE_ALL);
     nook_sample sample = measure(site, "ssao", NOOK_MEASURE_ALL);
     assert_true(sample.ms_min > 0.0 && sample.ms_median >= sample.ms_min && sample.ms_max >= sample.ms_median);
-    assert_in_range(sample.frames, 3, 9);
+    assert_in_range(sample.frames, NOOK_SITE_ROUNDS_SLOW, 3 * NOOK_SITE_ROUNDS);
     assert_true(isfinite(sample.screen.rmse) && sample.noise > 0.0 && sample.flicker > 0.0);
     assert_true(sample.instability.valid && sample.ssim < 1.0);
     assert_true(sample.volume_bytes == 0.0 && sample.bake_ms == 0.0);
@@ -329,6 +394,9 @@ int main(void)
         SITE_TEST(test_the_reference_draws_what_its_version_says),
         SITE_TEST(test_where_the_truth_is_too_noisy_for_an_error_it_is_traced_further),
         SITE_TEST(test_a_setting_measures_the_same_twice_and_after_others),
+        SITE_TEST(test_values_out_of_range_are_counted_in_every_frame_that_is_not_timed),
+        cmocka_unit_test(test_times_are_those_of_the_middle_round),
+        SITE_TEST(test_settings_take_turns_and_each_round_is_one_time),
         SITE_TEST(test_what_is_not_asked_for_is_not_a_number),
         SITE_TEST(test_all_that_is_asked_for_is_measured),
         SITE_TEST(test_a_camera_that_sees_nothing_is_refused),
