@@ -92,6 +92,13 @@ static bool is_awake(const physics_body *body)
     return body->motion == NOOK_BODY_DYNAMIC && dBodyIsEnabled(body->ode);
 }
 
+void nook_physics_sleep(nook_physics *physics, nook_body body)
+{
+    physics_body *b = nook_physics_find(physics, body);
+    if (b && b->motion == NOOK_BODY_DYNAMIC)
+        fall_asleep(b);
+}
+
 void nook_physics_settle(nook_physics *physics)
 {
     const uint32_t enough = (uint32_t)(nook_physics_tuning.sleep_seconds / NOOK_PHYSICS_STEP);

@@ -11,8 +11,8 @@ static int compare_doubles(const void *a, const void *b)
 }
 
 /* A ray through the middle of a cell of the picture; its distances are along the view. */
-static nook_ray_hit cast_cell(const nook_rays *rays, const nook_camera *camera, const nook_matrix *world_from_view,
-                              double aspect, int x, int y)
+static nook_view_hit cast_cell(const nook_rays *rays, const nook_camera *camera, const nook_matrix *world_from_view,
+                               double aspect, int x, int y)
 {
     const double origin[3] = { 0.0, 0.0, 0.0 };
     double tangent = tan(0.5 * camera->fov_y_radians), eye[3], direction[3];
@@ -31,7 +31,7 @@ nook_glance nook_glance_at(const nook_rays *rays, const nook_camera *camera, dou
     int count = 0, backs = 0, close = 0;
     nook_matrix_inverse_affine(&camera->view_from_world, &world_from_view);
     for (int i = 0; i < SIDE * SIDE; i++) {
-        nook_ray_hit hit = cast_cell(rays, camera, &world_from_view, aspect, i % SIDE, i / SIDE);
+        nook_view_hit hit = cast_cell(rays, camera, &world_from_view, aspect, i % SIDE, i / SIDE);
         if (!isfinite(hit.distance))
             continue;
         backs += !hit.front;

@@ -74,7 +74,7 @@ static bool is_inside(const nook_place *place, const double point[3])
     for (int i = 0; i < DIRECTIONS; i++) {
         double angle = 2.0 * pi * i / DIRECTIONS;
         const double direction[3] = { cos(angle), 0.0, sin(angle) };
-        nook_ray_hit hit = nook_rays_cast(place->rays, point, direction);
+        nook_view_hit hit = nook_rays_cast(place->rays, point, direction);
         if (hit.distance < 0.008 * place->diagonal)
             return false;
         walls += hit.front && hit.distance < place->diagonal;
@@ -86,8 +86,8 @@ static bool is_inside(const nook_place *place, const double point[3])
 /* A person's height above the floor below, of which a scene can have several. */
 static bool stand(const nook_place *place, double height_part, double point[3])
 {
-    nook_ray_hit floor = nook_rays_cast(place->rays, point, down);
-    nook_ray_hit ceiling = nook_rays_cast(place->rays, point, up);
+    nook_view_hit floor = nook_rays_cast(place->rays, point, down);
+    nook_view_hit ceiling = nook_rays_cast(place->rays, point, up);
     if (!floor.front || !isfinite(floor.distance))
         return false;
     double above = fmin(ceiling.distance, place->scene->bounds_max[1] - point[1]);

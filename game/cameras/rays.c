@@ -107,7 +107,7 @@ static struct RTCRay ray_from(const nook_rays *rays, const double origin[3], con
                             .mask = ~0u };
 }
 
-nook_ray_hit nook_rays_cast(const nook_rays *rays, const double origin[3], const double direction[3])
+nook_view_hit nook_rays_cast(const nook_rays *rays, const double origin[3], const double direction[3])
 {
     struct RTCIntersectContext context;
     struct RTCRayHit hit = { .ray = ray_from(rays, origin, direction) };
@@ -115,10 +115,10 @@ nook_ray_hit nook_rays_cast(const nook_rays *rays, const double origin[3], const
     hit.hit.geomID = hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(rays->scene, &context, &hit);
     if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID)
-        return (nook_ray_hit){ INFINITY, false };
+        return (nook_view_hit){ INFINITY, false };
     const bool *double_sided = rtcGetGeometryUserData(rtcGetGeometry(rays->scene, hit.hit.geomID));
     float facing = hit.hit.Ng_x * hit.ray.dir_x + hit.hit.Ng_y * hit.ray.dir_y + hit.hit.Ng_z * hit.ray.dir_z;
-    return (nook_ray_hit){ (double)hit.ray.tfar, *double_sided || facing < 0.0f };
+    return (nook_view_hit){ (double)hit.ray.tfar, *double_sided || facing < 0.0f };
 }
 
 bool nook_rays_see(const nook_rays *rays, const double from[3], const double to[3])

@@ -13,7 +13,7 @@ nook_result nook_rays_create(const nook_scene *scene, nook_rays **out_rays);
 void nook_rays_destroy(nook_rays *rays); /**< NULL is allowed. */
 
 /** As nook_scene_cast, with a tree; double-sided surfaces have only fronts. @param origin, direction  world, metres */
-nook_ray_hit nook_rays_cast(const nook_rays *rays, const double origin[3], const double direction[3]);
+nook_view_hit nook_rays_cast(const nook_rays *rays, const double origin[3], const double direction[3]);
 
 /** Whether nothing stands between two points. */
 bool nook_rays_see(const nook_rays *rays, const double from[3], const double to[3]);

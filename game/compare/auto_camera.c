@@ -46,7 +46,7 @@ static double meet_triangle(const float *const corners[3], const double origin[3
 
 /* All of it in mesh space: glTF turns the winding of mirrored nodes, so that a front stays a front. */
 static void meet_primitive(const nook_scene *scene, const nook_primitive *primitive, const double origin[3],
-                           const double direction[3], nook_ray_hit *hit)
+                           const double direction[3], nook_view_hit *hit)
 {
     const nook_vertex *vertices = scene->vertices + primitive->first_vertex;
     const uint32_t *indices = scene->indices + primitive->first_index;
@@ -55,13 +55,13 @@ static void meet_primitive(const nook_scene *scene, const nook_primitive *primit
                                           vertices[indices[i + 2]].position };
         double facing = 0.0, distance = meet_triangle(corners, origin, direction, &facing);
         if (distance < hit->distance)
-            *hit = (nook_ray_hit){ distance, facing < 0.0 };
+            *hit = (nook_view_hit){ distance, facing < 0.0 };
     }
 }
 
-nook_ray_hit nook_scene_cast(const nook_scene *scene, const double origin[3], const double direction[3])
+nook_view_hit nook_scene_cast(const nook_scene *scene, const double origin[3], const double direction[3])
 {
-    nook_ray_hit hit = { INFINITY, false };
+    nook_view_hit hit = { INFINITY, false };
     for (uint32_t i = 0; i < scene->node_count; i++) {
         const nook_node *node = &scene->nodes[i];
         nook_matrix local_from_world;
@@ -80,7 +80,7 @@ nook_ray_hit nook_scene_cast(const nook_scene *scene, const double origin[3], co
 }
 
 /* A ray through the picture. @param u, v  in [-1, 1], v up */
-static nook_ray_hit cast_pixel(const nook_scene *scene, const nook_camera *view, double aspect, double u, double v)
+static nook_view_hit cast_pixel(const nook_scene *scene, const nook_camera *view, double aspect, double u, double v)
 {
     nook_matrix world_from_view;
     double tan_y = tan(0.5 * view->fov_y_radians), eye[3], direction[3];
@@ -96,7 +96,7 @@ double nook_view_back_fraction(const nook_scene *scene, const nook_camera *view,
     int hits = 0, backs = 0;
     for (int i = 0; i < GRID * GRID; i++) {
         double u = 2.0 * (i % GRID + 0.5) / GRID - 1.0, v = 2.0 * (i / GRID + 0.5) / GRID - 1.0;
-        nook_ray_hit hit = cast_pixel(scene, view, aspect, u, v);
+        nook_view_hit hit = cast_pixel(scene, view, aspect, u, v);
         hits += isfinite(hit.distance);
         backs += isfinite(hit.distance) && !hit.front;
     }
@@ -181,7 +181,7 @@ static double look_around(const nook_scene *scene, const double origin[3], doubl
     for (int i = 0; i < DIRECTIONS; i++) {
         double direction[3];
         level_direction(i, direction);
-        nook_ray_hit hit = nook_scene_cast(scene, origin, direction);
+        nook_view_hit hit = nook_scene_cast(scene, origin, direction);
         walls += hit.distance < far && hit.distance > nearest && hit.front;
         free_run[i] = fmin(hit.distance, far);
     }

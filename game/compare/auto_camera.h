@@ -3,13 +3,13 @@
 #include "engine/render/renderer.h"
 
 /** Where a ray first meets the scene. */
-typedef struct nook_ray_hit {
+typedef struct nook_view_hit {
     double distance; /**< In lengths of `direction`; infinite when nothing is met. */
     bool front;      /**< The side that the triangle shows; false from behind. */
-} nook_ray_hit;
+} nook_view_hit;
 
 /** Asks every triangle: for the few rays that choosing a view takes. @param origin, direction  world, metres */
-nook_ray_hit nook_scene_cast(const nook_scene *scene, const double origin[3], const double direction[3]);
+nook_view_hit nook_scene_cast(const nook_scene *scene, const double origin[3], const double direction[3]);
 
 /** Of the picture's surfaces, the part that shows its back: what a room shows to those outside. */
 double nook_view_back_fraction(const nook_scene *scene, const nook_camera *view, double aspect);

@@ -39,15 +39,18 @@ typedef enum nook_level_shape {
 /** An entity: a header line "[kind name]" and what stands below it. Members that its kind does not have are zero. */
 typedef struct nook_level_entity {
     nook_level_kind kind;
-    char name[NOOK_LEVEL_NAME_SIZE]; /**< Unique; also that of the scene's node, unless `node` says another. */
+    /** Unique; also that of the scene's node, unless `node` says another. Bodies and fixed ones: "crate_*" is all nodes so named. */
+    char name[NOOK_LEVEL_NAME_SIZE];
     char node[NOOK_LEVEL_NAME_SIZE]; /**< "node" or "library:node"; the same as name when it is not given. */
-    bool placed;                     /**< at or turn was given: else it stands where its file has it. */
-    double at[3];                    /**< Metres. */
-    double turn[3];                  /**< Degrees about x, then y, then z. */
+    bool placed;    /**< at or turn was given, and what is not is 0: else it stands where its file has it. */
+    double at[3];   /**< Metres. */
+    double turn[3]; /**< Degrees about x, then y, then z. */
     nook_level_shape shape;
-    double mass, friction, restitution; /**< 0 mass: the node's nook_mass, else by volume at 500 kg / m^3. */
+    double mass; /**< Kilograms; 0: the node's nook_mass, else by its box and the density of body.def. */
+    double friction, restitution; /**< Coulomb coefficient; [0, 1]. Those of body.def when they are not given. */
     char needs[NOOK_LEVEL_NEEDS_MAX][NOOK_LEVEL_NAME_SIZE]; /**< Entities that must all be down, open or there. */
     uint32_t need_count;
+    unsigned needs_line;       /**< Where they stand in the file. */
     double slide[3], swing[3]; /**< Mover: metres, and degrees, from closed to open. */
     double seconds;            /**< Mover: from closed to open. Plate, shade: how long it must hold. */
     double axis[3], rpm;       /**< Spinner: unit, own space. */
@@ -70,6 +73,10 @@ typedef struct nook_level {
     double seconds;              /**< Of play until it is lost; 0: no end. */
     nook_level_entity *entities; /**< Owned. */
     uint32_t entity_count;
+    /** A still floor that no file has: half its side, 0 for none, and its middle. For models without ground below them. */
+    double ground_half, ground[3];
+    double
+        loose_longest; /**< Nodes whose box in the world is at most this long are bodies, metres; 0: those that glTF says. */
 } nook_level;
 
 /**
@@ -78,3 +85,15 @@ typedef struct nook_level {
  */
 nook_result nook_level_read(const char *path, nook_level **out_level);
 void nook_level_free(nook_level *level); /**< NULL is allowed. */
+
+/** "body", "plate", ... */
+const char *nook_level_kind_name(nook_level_kind kind);
+/** Whether a name is the pattern, or begins with it where the pattern ends in '*'. */
+bool nook_level_name_matches(const char *pattern, const char *name);
+/**
+ * The entity that says what a node of the scene is: one of its very name before patterns, the first of these.
+ * Entities of libraries name nodes of their own. @return NULL: none does
+ */
+const nook_level_entity *nook_level_find_node(const nook_level *level, const char *node);
+/** @return NULL: there is none of that name */
+const nook_level_entity *nook_level_find(const nook_level *level, const char *name);

@@ -190,7 +190,7 @@ static void test_rays_meet_what_the_slow_ones_meet(void **state)
     for (int i = 0; i < 400; i++) {
         const double from[3] = { 2.0 * cos(i), 0.3 + 0.01 * i, 2.0 * sin(i) };
         const double along[3] = { -cos(i + 0.1 * (i % 7)), -0.3 * (i % 3), -sin(i - 0.05 * (i % 5)) };
-        nook_ray_hit fast = nook_rays_cast(rays, from, along), slow = nook_scene_cast(scene, from, along);
+        nook_view_hit fast = nook_rays_cast(rays, from, along), slow = nook_scene_cast(scene, from, along);
         assert_int_equal(isfinite(fast.distance), isfinite(slow.distance));
         if (!isfinite(slow.distance))
             continue;

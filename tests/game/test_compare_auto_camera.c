@@ -63,7 +63,7 @@ static void test_rays_meet_the_nearest_side_and_know_it(void **state)
     make_box(&box, 2.0, 3.0, 4.0, false);
     const double outside[3] = { 10.0, 0.5, 0.25 }, inside[3] = { 0.5, 0.5, 0.25 };
     const double left[3] = { -2.0, 0.0, 0.0 }, right[3] = { 2.0, 0.0, 0.0 }, up[3] = { 0.0, 1.0, 0.0 };
-    nook_ray_hit hit = nook_scene_cast(&box.scene, outside, left);
+    nook_view_hit hit = nook_scene_cast(&box.scene, outside, left);
     assert_true(fabs(hit.distance - 4.0) < 1e-12 && hit.front);
     hit = nook_scene_cast(&box.scene, inside, up);
     assert_true(fabs(hit.distance - 2.5) < 1e-12 && !hit.front);

@@ -1,0 +1,95 @@
+#include "game/play/play.h"
+#include "engine/core/log.h"
+#include "game/commands/commands.h"
+#include "game/option_rows.h"
+
+static bool read_seed(void *target, const char *text)
+{
+    double number;
+    nook_play_desc *desc = target;
+    if (!nook_text_to_number(text, &number) || number < 0.0 || number > UINT32_MAX ||
+        number != (double)(uint32_t)number)
+        return false;
+    desc->seed = (uint32_t)number;
+    desc->seed_given = true;
+    return true;
+}
+
+static nook_option make_path(const char *name, const char **target, const char *help)
+{
+    return (
+        nook_option){ .name = name, .kind = NOOK_OPTION_TEXT, .target = target, .placeholder = "FILE", .help = help };
+}
+
+static const char details[] =
+    "LEVEL is a .level file or any glTF file, whose nodes become bodies; default: the engine house.\n"
+    "Without a window the last line says how it ended: won, lost, ended (nothing to win) or undecided, after how many\n"
+    "ticks of 1/60 s, and the hash of the state. It plays to the end of the replay or the pilot, or 2 s beyond the "
+    "end.\n"
+    "Levels: docs/playing.md. Pilots: game/play/pilot.h.\n";
+
+/* The command line. */
+typedef struct play_request {
+    nook_play_desc desc;
+    bool headless;
+} play_request;
+
+static bool read_request(const nook_app *app, int argc, char **argv, play_request *out, int *out_exit_code)
+{
+    *out = (play_request){ .desc = { .root = app->root } };
+    const nook_option options[] = {
+        { .name = "headless",
+          .kind = NOOK_OPTION_FLAG,
+          .target = &out->headless,
+          .help = "without a window, as fast as it goes" },
+        { .name = "seed",
+          .kind = NOOK_OPTION_CUSTOM,
+          .target = &out->desc,
+          .placeholder = "N",
+          .read = read_seed,
+          .expects = "a whole number below 2^32",
+          .help = "of the physics; default: the replay's, else 1" },
+        make_path("record", &out->desc.record, "write what is pressed, tick by tick"),
+        make_path("replay", &out->desc.replay, "play what was recorded; then the player goes on"),
+        make_path("pilot", &out->desc.pilot, "play by a script of steps"),
+    };
+    const nook_usage usage = { .command = "play",
+                               .summary = "Plays a level: first person, rigid bodies, weight and shadow.",
+                               .positionals = "[LEVEL]",
+                               .positional_max = 1,
+                               .options = options,
+                               .option_count = NOOK_COUNT(options),
+                               .details = details };
+    nook_arguments arguments;
+    if (!nook_arguments_read(&usage, argc, argv, &arguments, out_exit_code))
+        return false;
+    out->desc.level = arguments.positionals[0];
+    out->desc.skip_images = out->headless;
+    return true;
+}
+
+static int play_headless(const nook_play_desc *desc)
+{
+    nook_play play;
+    bool orderly = false;
+    nook_result result = nook_play_open(desc, &play);
+    if (result == NOOK_OK)
+        result = nook_play_begin(&play, NULL, NULL);
+    if (result == NOOK_OK)
+        result = nook_play_headless(&play, &orderly);
+    nook_result closed = nook_play_close(&play);
+    return result == NOOK_OK && closed == NOOK_OK && orderly ? NOOK_EXIT_OK : NOOK_EXIT_FAILED;
+}
+
+int nook_command_play(const nook_app *app, int argc, char **argv)
+{
+    play_request request;
+    int exit_code;
+    if (!read_request(app, argc, argv, &request, &exit_code))
+        return exit_code;
+    if (!request.headless) {
+        nook_fail(NOOK_E_ARG, "play: give --headless; the window is not there yet");
+        return NOOK_EXIT_USAGE;
+    }
+    return play_headless(&request.desc);
+}

@@ -1,0 +1,66 @@
+/**
+ * play.h - a game from its files to its end, with or without a window: level, scene, session, and where its inputs come from.
+ *
+ *   open -> (take_scene: a stage makes a world of it) -> begin -> every 1/60 s: tick -> close
+ *
+ * A tick takes its input from the replay while there is some, else from the pilot while it steers, else from the player.
+ */
+#pragma once
+#include "game/level/level.h"
+#include "game/play/pilot.h"
+#include "game/play/recording.h"
+#include "game/play/session.h"
+
+typedef struct nook_play_desc {
+    const char *root;  /**< The folder of Nook's sources: levels are looked for in it too. */
+    const char *level; /**< .level, .glb or .gltf; NULL: the replay's, else the engine house. */
+    uint32_t seed;     /**< Used when seed_given; else the replay's, else 1. */
+    bool seed_given;
+    const char *record; /**< Where to write the inputs when it is closed; NULL: nowhere. */
+    const char *replay; /**< A recording; NULL: none. */
+    const char *pilot;  /**< A script; NULL: none. */
+    bool skip_images;   /**< Nothing will be drawn. */
+} nook_play_desc;
+
+/** Members are for reading; zeroed is closed. */
+typedef struct nook_play {
+    nook_level *level;
+    nook_scene *scene;          /**< NULL once it was taken. */
+    nook_game_world *own_world; /**< Of a game that nobody draws; else NULL. */
+    nook_session *session;      /**< NULL until it begins. */
+    nook_recording recording;   /**< Of what was played so far. */
+    char record_path[1024];     /**< "": nowhere. */
+    nook_recording replay;
+    size_t replayed; /**< Ticks of it that were taken. */
+    nook_pilot *pilot;
+    nook_pilot_status pilot_status; /**< NOOK_PILOT_DONE when there is none. */
+    uint32_t seed;
+    uint64_t ended_at; /**< Tick of the try at which it was won or lost; 0: it is not. */
+} nook_play;
+
+/**
+ * Reads all files. @return why not, logged in one line: NOOK_E_NOT_FOUND, NOOK_E_IO, NOOK_E_FORMAT, NOOK_E_VERSION, NOOK_E_MEMORY;
+ * NOOK_E_ARG the replay is of another level; *out_play is zero then
+ */
+nook_result nook_play_open(const nook_play_desc *desc, nook_play *out_play);
+/** The scene, which is the caller's from now on and must outlive the play. Once. */
+nook_scene *nook_play_take_scene(nook_play *play);
+/**
+ * Makes the session. @param scene, world  the scene that was taken and its world, which outlive the play; both NULL: its own
+ * @return as nook_session_create
+ */
+nook_result nook_play_begin(nook_play *play, const nook_scene *scene, nook_game_world *world);
+/** One step. @param from_player taken when neither replay nor pilot gives one. @return as nook_session_tick; NOOK_E_MEMORY */
+nook_result nook_play_tick(nook_play *play, const nook_play_input *from_player);
+/** Whether nothing but the player would give the next input. */
+bool nook_play_is_free(const nook_play *play);
+/** Writes the recording, if one is asked for, and frees everything. @return NOOK_E_IO, NOOK_E_MEMORY: not written; closed it is */
+nook_result nook_play_close(nook_play *play);
+
+/**
+ * Plays a begun game without a window, as fast as it goes: to the end of what drives it, or 2 s beyond the end of the game; a
+ * level with a time limit goes on to that. Says on standard output how it ended: won, lost, ended or undecided.
+ * @param out_orderly  won or lost, or ended where the level has neither
+ * @return as nook_play_tick; NOOK_E_ARG nothing drives it and it would never end
+ */
+nook_result nook_play_headless(nook_play *play, bool *out_orderly);

@@ -1,0 +1,159 @@
+#include "engine/core/file.h"
+#include "engine/core/log.h"
+#include "game/level/level_scene.h"
+#include "game/play/play.h"
+#include <assert.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char default_level[] = "content/engine_house/engine_house.level";
+enum { DEFAULT_SEED = 1, PATH_SIZE = 1024 };
+
+/* ---- Opening ----------------------------------------------------------------------------------------------------- */
+
+/* A path as it is kept in recordings: within the root where it lies there. */
+static void name_level(const char *root, const char *path, char out[PATH_SIZE])
+{
+    size_t length = strlen(root);
+    bool inside = strncmp(path, root, length) == 0 && path[length] == '/';
+    snprintf(out, PATH_SIZE, "%s", inside ? path + length + 1 : path);
+}
+
+/* Where that path can be read from: here, or in the root. */
+static void find_level(const char *root, const char *name, char out[PATH_SIZE])
+{
+    if (*name == '/' || nook_file_exists(name))
+        snprintf(out, PATH_SIZE, "%s", name);
+    else
+        nook_path_join(out, PATH_SIZE, root, name);
+    if (!nook_file_exists(out)) /* say the path that was given */
+        snprintf(out, PATH_SIZE, "%s", name);
+}
+
+static nook_result choose_level(const nook_play_desc *desc, nook_play *play, char out_path[PATH_SIZE])
+{
+    char *name = play->recording.level;
+    if (desc->level)
+        name_level(desc->root, desc->level, name);
+    else
+        snprintf(name, PATH_SIZE, "%s", desc->replay ? play->replay.level : default_level);
+    if (desc->replay && strcmp(name, play->replay.level) != 0)
+        return nook_fail(NOOK_E_ARG, "%s: was recorded in %s, not in %s; play that, or leave the level out",
+                         desc->replay, play->replay.level, name);
+    find_level(desc->root, name, out_path);
+    return NOOK_OK;
+}
+
+static nook_result read_files(const nook_play_desc *desc, nook_play *play)
+{
+    char path[PATH_SIZE];
+    const nook_scene_options options = { .skip_images = desc->skip_images };
+    nook_result result = desc->replay ? nook_recording_read(desc->replay, &play->replay) : NOOK_OK;
+    if (result == NOOK_OK && desc->pilot) {
+        result = nook_pilot_read(desc->pilot, &play->pilot);
+        play->pilot_status = NOOK_PILOT_STEERS;
+    }
+    if (result == NOOK_OK)
+        result = choose_level(desc, play, path);
+    if (result == NOOK_OK)
+        result = nook_level_read(path, &play->level);
+    if (result == NOOK_OK)
+        result = nook_level_scene_load(play->level, &options, &play->scene);
+    return result;
+}
+
+static void clear(nook_play *play)
+{
+    nook_session_destroy(play->session);
+    nook_game_world_destroy(play->own_world);
+    nook_scene_destroy(play->scene);
+    nook_level_free(play->level);
+    nook_pilot_destroy(play->pilot);
+    nook_recording_free(&play->recording);
+    nook_recording_free(&play->replay);
+    *play = (nook_play){ .seed = 0 };
+}
+
+nook_result nook_play_open(const nook_play_desc *desc, nook_play *out_play)
+{
+    nook_play play = { .pilot_status = NOOK_PILOT_DONE };
+    *out_play = (nook_play){ .seed = 0 };
+    nook_result result = read_files(desc, &play);
+    if (result != NOOK_OK) {
+        clear(&play);
+        return result;
+    }
+    play.seed = desc->seed_given ? desc->seed : desc->replay ? play.replay.seed : DEFAULT_SEED;
+    play.recording.seed = play.seed;
+    snprintf(play.record_path, sizeof play.record_path, "%s", desc->record ? desc->record : "");
+    *out_play = play;
+    return NOOK_OK;
+}
+
+nook_scene *nook_play_take_scene(nook_play *play)
+{
+    nook_scene *scene = play->scene;
+    assert(scene && !play->session);
+    play->scene = NULL;
+    return scene;
+}
+
+nook_result nook_play_begin(nook_play *play, const nook_scene *scene, nook_game_world *world)
+{
+    assert(!scene == !world && !play->session);
+    nook_result result = NOOK_OK;
+    if (!world)
+        result = nook_game_world_create(play->scene, &play->own_world);
+    const nook_session_desc desc = { .level = play->level,
+                                     .scene = scene ? scene : play->scene,
+                                     .world = world ? world : play->own_world,
+                                     .seed = play->seed };
+    return result == NOOK_OK ? nook_session_create(&desc, &play->session) : result;
+}
+
+/* ---- Playing ----------------------------------------------------------------------------------------------------- */
+
+bool nook_play_is_free(const nook_play *play)
+{
+    return play->replayed >= play->replay.tick_count && play->pilot_status != NOOK_PILOT_STEERS;
+}
+
+static nook_play_input choose_input(nook_play *play, const nook_play_input *from_player)
+{
+    nook_play_input input = *from_player;
+    if (play->replayed < play->replay.tick_count)
+        return play->replay.inputs[play->replayed++];
+    if (play->pilot_status == NOOK_PILOT_STEERS) {
+        nook_play_input steered;
+        play->pilot_status = nook_pilot_steer(play->pilot, play->session, &steered);
+        if (play->pilot_status == NOOK_PILOT_STEERS)
+            input = steered;
+    }
+    return input;
+}
+
+nook_result nook_play_tick(nook_play *play, const nook_play_input *from_player)
+{
+    const nook_play_input input = choose_input(play, from_player);
+    nook_result result = *play->record_path ? nook_recording_append(&play->recording, &input) : NOOK_OK;
+    if (result == NOOK_OK)
+        result = nook_session_tick(play->session, &input);
+    if (result != NOOK_OK)
+        return result;
+    nook_session_view view = nook_session_look(play->session);
+    if (view.status == NOOK_SESSION_PLAYING)
+        play->ended_at = 0;
+    else if (play->ended_at == 0)
+        play->ended_at = view.ticks;
+    return NOOK_OK;
+}
+
+nook_result nook_play_close(nook_play *play)
+{
+    nook_result result = NOOK_OK;
+    if (*play->record_path && play->session)
+        result = nook_recording_write(play->record_path, &play->recording);
+    clear(play);
+    return result;
+}

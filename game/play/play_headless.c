@@ -1,0 +1,54 @@
+/* A game that nobody sees. */
+#include "engine/core/log.h"
+#include "game/play/play.h"
+#include <stdio.h>
+
+static const double seconds_beyond_the_end = 2.0;
+
+static bool can_end(const nook_level *level)
+{
+    for (uint32_t i = 0; i < level->entity_count; i++) {
+        if (level->entities[i].kind == NOOK_LEVEL_GOAL)
+            return true;
+    }
+    return level->seconds > 0.0;
+}
+
+/* Whether there is nothing more to wait for. */
+static bool is_over(const nook_play *play)
+{
+    if (play->ended_at > 0) {
+        double beyond = (double)(nook_session_look(play->session).ticks - play->ended_at) * NOOK_PHYSICS_STEP;
+        return beyond >= seconds_beyond_the_end;
+    }
+    if (!nook_play_is_free(play))
+        return false;
+    return play->pilot || !(play->level->seconds > 0.0); /* a replay that went astray is lost in time */
+}
+
+static void say_end(const nook_play *play, bool decided)
+{
+    static const char *const words[] = { "undecided", "won", "lost" };
+    nook_session_view view = nook_session_look(play->session);
+    uint64_t ticks = play->ended_at > 0 ? play->ended_at : view.ticks;
+    printf("%s after %llu ticks (%.1f s), hash %016llx\n", decided ? words[view.status] : "ended",
+           (unsigned long long)ticks, (double)ticks * NOOK_PHYSICS_STEP,
+           (unsigned long long)nook_session_hash(play->session));
+}
+
+nook_result nook_play_headless(nook_play *play, bool *out_orderly)
+{
+    const nook_play_input nothing = { 0 };
+    if (nook_play_is_free(play) && !(play->level->seconds > 0.0))
+        return nook_fail(NOOK_E_ARG, "%s has no time limit and nobody plays: give --replay or --pilot",
+                         play->level->path);
+    while (!is_over(play)) {
+        nook_result result = nook_play_tick(play, &nothing);
+        if (result != NOOK_OK)
+            return result;
+    }
+    bool decides = can_end(play->level);
+    say_end(play, decides);
+    *out_orderly = play->pilot_status != NOOK_PILOT_FAILED && (!decides || play->ended_at > 0);
+    return NOOK_OK;
+}

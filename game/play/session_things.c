@@ -1,0 +1,338 @@
+/* The nodes that have bodies, and the bodies themselves. */
+#include "engine/core/log.h"
+#include "engine/core/rotation.h"
+#include "engine/core/vector.h"
+#include "game/level/body.h"
+#include "game/level/shape_fit.h"
+#include "game/play/session_internal.h"
+#include <assert.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- What has a body --------------------------------------------------------------------------------------------- */
+
+const nook_level_entity *session_entity_of(const nook_session *s, const session_thing *thing)
+{
+    return thing->entity == NOOK_NONE ? NULL : &s->desc.level->entities[thing->entity];
+}
+
+/* The entity that says what a node is: those of libraries gave it their name, the others are found by theirs. */
+static uint32_t entity_of_node(const nook_level *level, const char *name)
+{
+    const nook_level_entity *found = nook_level_find(level, name);
+    if (!found || found->kind == NOOK_LEVEL_GOAL || (!strchr(found->node, ':') && strcmp(found->node, name) != 0))
+        found = nook_level_find_node(level, name);
+    return found ? (uint32_t)(found - level->entities) : NOOK_NONE;
+}
+
+static nook_body_motion motion_of(const nook_node *node, const nook_level_entity *entity)
+{
+    if (!entity) /* what hangs on another would need a joint to fall with; it stays where it hangs */
+        return node->moving && !node->hung ? NOOK_BODY_DYNAMIC : NOOK_BODY_STATIC;
+    if (entity->kind == NOOK_LEVEL_BODY)
+        return NOOK_BODY_DYNAMIC;
+    return entity->kind == NOOK_LEVEL_MOVER || entity->kind == NOOK_LEVEL_SPINNER ? NOOK_BODY_KINEMATIC
+                                                                                  : NOOK_BODY_STATIC;
+}
+
+/* Parts a node's transform into a pose and what is left of it. @return false: it is flat and has no body */
+static bool part_transform(const nook_node *node, session_thing *out, double out_scale[3])
+{
+    if (!nook_rotation_from_matrix(&node->world_from_local, out->start.rotation, out_scale))
+        return false;
+    memcpy(out->start.position, node->world_from_local.m + 12, sizeof out->start.position);
+    nook_pose body_from_world = nook_pose_inverse(&out->start);
+    nook_matrix matrix = nook_pose_matrix(&body_from_world);
+    out->body_from_node = nook_matrix_multiply(&matrix, &node->world_from_local);
+    return true;
+}
+
+static void find_box(const nook_mesh *mesh, const double scale[3], session_thing *out)
+{
+    for (int k = 0; k < 3; k++) {
+        double low = (double)mesh->bounds_min[k] * scale[k], high = (double)mesh->bounds_max[k] * scale[k];
+        out->middle[k] = 0.5 * (low + high);
+        out->half[k] = 0.5 * fabs(high - low);
+    }
+}
+
+/* @return false: it draws nothing, is flat, or the level wants it without a body */
+static bool describe_node(const nook_session *s, uint32_t index, session_thing *out)
+{
+    const nook_scene *scene = s->desc.scene;
+    const nook_node *node = &scene->nodes[index];
+    double scale[3];
+    *out = (session_thing){ .node = index, .entity = entity_of_node(s->desc.level, node->name) };
+    const nook_level_entity *entity = session_entity_of(s, out);
+    if (node->mesh == NOOK_NONE || (entity && entity->shape == NOOK_LEVEL_SHAPE_NONE))
+        return false;
+    const nook_mesh *mesh = &scene->meshes[node->mesh];
+    if (mesh->bounds_min[0] > mesh->bounds_max[0] || !part_transform(node, out, scale))
+        return false;
+    out->motion = motion_of(node, entity);
+    find_box(mesh, scale, out);
+    return true;
+}
+
+nook_result session_make_things(nook_session *s)
+{
+    const nook_scene *scene = s->desc.scene;
+    s->things = calloc(scene->node_count + 1, sizeof *s->things);
+    if (!s->things)
+        return nook_fail(NOOK_E_MEMORY, "%s: no memory for its bodies", s->desc.level->path);
+    for (uint32_t i = 0; i < scene->node_count; i++)
+        s->thing_count += describe_node(s, i, &s->things[s->thing_count]);
+    return NOOK_OK;
+}
+
+/* ---- Shapes ------------------------------------------------------------------------------------------------------ */
+
+/* Triangles of a node in the space of its body. */
+typedef struct triangles {
+    float *positions;
+    uint32_t *indices;
+} triangles;
+
+static void free_triangles(triangles *t)
+{
+    free(t->positions);
+    free(t->indices);
+}
+
+static void count_mesh(const nook_scene *scene, const nook_mesh *mesh, nook_shape *out)
+{
+    for (uint32_t p = 0; p < mesh->primitive_count; p++) {
+        out->vertex_count += scene->primitives[mesh->first_primitive + p].vertex_count;
+        out->index_count += scene->primitives[mesh->first_primitive + p].index_count;
+    }
+}
+
+static void copy_primitive(const nook_scene *scene, const nook_primitive *primitive, const nook_matrix *body_from_node,
+                           float *positions, uint32_t *indices, uint32_t first)
+{
+    for (uint32_t v = 0; v < primitive->vertex_count; v++) {
+        const float *from = scene->vertices[primitive->first_vertex + v].position;
+        double p[3] = { (double)from[0], (double)from[1], (double)from[2] };
+        nook_matrix_apply_point(body_from_node, p, p);
+        for (int k = 0; k < 3; k++)
+            positions[3 * v + (uint32_t)k] = (float)p[k];
+    }
+    for (uint32_t i = 0; i < primitive->index_count; i++)
+        indices[i] = scene->indices[primitive->first_index + i] + first;
+}
+
+static nook_result make_mesh_shape(const nook_scene *scene, const session_thing *thing, triangles *buffer,
+                                   nook_shape *out)
+{
+    const nook_mesh *mesh = &scene->meshes[scene->nodes[thing->node].mesh];
+    *out = (nook_shape){ .kind = NOOK_SHAPE_MESH, .body_from_shape = nook_pose_identity() };
+    count_mesh(scene, mesh, out);
+    buffer->positions = malloc((size_t)out->vertex_count * 3 * sizeof(float));
+    buffer->indices = malloc((size_t)out->index_count * sizeof(uint32_t));
+    if (!buffer->positions || !buffer->indices)
+        return nook_fail(NOOK_E_MEMORY, "%s: no memory for the body of %s", scene->path,
+                         scene->nodes[thing->node].name);
+    uint32_t vertex = 0, index = 0;
+    for (uint32_t p = 0; p < mesh->primitive_count; p++) {
+        const nook_primitive *primitive = &scene->primitives[mesh->first_primitive + p];
+        copy_primitive(scene, primitive, &thing->body_from_node, buffer->positions + 3 * (size_t)vertex,
+                       buffer->indices + index, vertex);
+        vertex += primitive->vertex_count;
+        index += primitive->index_count;
+    }
+    out->positions = buffer->positions;
+    out->indices = buffer->indices;
+    return NOOK_OK;
+}
+
+/* What stands still or is moved by rules collides by its triangles unless the level says otherwise. */
+static nook_result make_shape(const nook_session *s, const session_thing *thing, triangles *buffer, nook_shape *out)
+{
+    const nook_level_entity *entity = session_entity_of(s, thing);
+    nook_level_shape wanted = entity ? entity->shape : NOOK_LEVEL_SHAPE_AUTO;
+    if (thing->motion != NOOK_BODY_DYNAMIC && wanted == NOOK_LEVEL_SHAPE_AUTO)
+        wanted = NOOK_LEVEL_SHAPE_MESH;
+    if (wanted == NOOK_LEVEL_SHAPE_MESH)
+        return make_mesh_shape(s->desc.scene, thing, buffer, out);
+    double rotation[4], scale[3];
+    const nook_node *node = &s->desc.scene->nodes[thing->node];
+    nook_rotation_from_matrix(&node->world_from_local, rotation, scale);
+    nook_level_shape_fit(s->desc.scene, node->mesh, scale, wanted, out);
+    return NOOK_OK;
+}
+
+/* ---- Bodies ------------------------------------------------------------------------------------------------------ */
+
+static double mass_of(const nook_session *s, const session_thing *thing, const nook_body_defaults *defaults)
+{
+    const nook_level_entity *entity = session_entity_of(s, thing);
+    const nook_node *node = &s->desc.scene->nodes[thing->node];
+    if (entity && entity->mass > 0.0)
+        return entity->mass;
+    if (node->mass > 0.0)
+        return node->mass;
+    double volume = 8.0 * thing->half[0] * thing->half[1] * thing->half[2];
+    return fmax(volume * (double)defaults->density, 1e-3);
+}
+
+/* Two numbers in [-1, 1] of a seed and a body (SplitMix64, Steele, Lea and Flood 2014). */
+static void scatter(uint32_t seed, uint32_t index, double out[2])
+{
+    uint64_t state = ((uint64_t)seed << 32) + index;
+    for (int i = 0; i < 2; i++) {
+        uint64_t z = state += 0x9e3779b97f4a7c15u;
+        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+        out[i] = (double)((z ^ (z >> 31)) >> 11) * 0x1p-52 - 1.0;
+    }
+}
+
+/* Where a try begins: a seed moves what lies loose by half a millimetre, so that no two go quite alike. */
+static nook_pose first_pose(const nook_session *s, const session_thing *thing)
+{
+    const double most = 0.0005;
+    nook_pose pose = thing->start;
+    double by[2];
+    if (thing->motion != NOOK_BODY_DYNAMIC)
+        return pose;
+    scatter(s->desc.seed, thing->node, by);
+    pose.position[0] += most * by[0];
+    pose.position[2] += most * by[1];
+    return pose;
+}
+
+static nook_result make_body(nook_session *s, session_thing *thing, const nook_body_defaults *defaults)
+{
+    const nook_level_entity *entity = session_entity_of(s, thing);
+    triangles buffer = { NULL, NULL };
+    nook_shape shape;
+    nook_result result = make_shape(s, thing, &buffer, &shape);
+    const nook_body_desc desc = { .motion = thing->motion,
+                                  .shapes = &shape,
+                                  .shape_count = 1,
+                                  .mass = mass_of(s, thing, defaults),
+                                  .pose = first_pose(s, thing),
+                                  .friction = entity ? entity->friction : (double)defaults->friction,
+                                  .restitution = entity ? entity->restitution : (double)defaults->restitution,
+                                  .ghost =
+                                      !entity && s->desc.scene->nodes[thing->node].hung, /* it overlaps its bearing */
+                                  .user = (uint64_t)(thing - s->things) + 1 };
+    if (result == NOOK_OK)
+        result = nook_physics_add(s->physics, &desc, &thing->body);
+    free_triangles(&buffer);
+    return result;
+}
+
+/* The entity of a node learns which body moves it. */
+static nook_result tell_entity(const nook_session *s, const session_thing *thing)
+{
+    const nook_type type = NOOK_TYPE(nook_played);
+    nook_world *world = nook_game_world_entities(s->desc.world);
+    nook_component component;
+    nook_result result = nook_world_component(world, &type, &component);
+    const nook_played played = { thing->body, thing->entity };
+    if (result == NOOK_OK)
+        result = nook_entity_add(world, nook_game_world_entity_of_node(s->desc.world, thing->node), component, &played);
+    return result;
+}
+
+static void note_touched(void *user, nook_body body)
+{
+    nook_body *self_and_other = user;
+    if (body.id != self_and_other[0].id)
+        self_and_other[1] = body;
+}
+
+/* Whether something is right below a body: a file that says it lies there is believed, and what hangs in the air falls. */
+static bool is_carried(nook_session *s, const session_thing *thing)
+{
+    const double sunk = 0.004, inset = 0.001;
+    nook_pose pose = nook_physics_pose(s->physics, thing->body, 1.0);
+    double low[3] = { INFINITY, INFINITY, INFINITY }, high[3] = { -INFINITY, -INFINITY, -INFINITY };
+    for (int corner = 0; corner < 8; corner++) {
+        double p[3];
+        for (int k = 0; k < 3; k++)
+            p[k] = thing->middle[k] + (corner >> k & 1 ? 1.0 : -1.0) * thing->half[k];
+        nook_pose_apply_point(&pose, p, p);
+        for (int k = 0; k < 3; k++) {
+            low[k] = fmin(low[k], p[k]);
+            high[k] = fmax(high[k], p[k]);
+        }
+    }
+    low[0] += inset, low[2] += inset, high[0] -= inset, high[2] -= inset;
+    high[1] = low[1] + 2.0 * inset; /* a slice that hangs out of its bottom */
+    low[1] -= sunk;
+    if (low[0] >= high[0] || low[2] >= high[2])
+        return false;
+    nook_body self_and_other[2] = { thing->body, { 0 } };
+    nook_physics_overlap(s->physics, low, high, note_touched, self_and_other);
+    return self_and_other[1].id != 0;
+}
+
+nook_result session_make_bodies(nook_session *s)
+{
+    const nook_body_defaults defaults = nook_body_defaults_initial();
+    nook_result result = NOOK_OK;
+    for (uint32_t i = 0; i < s->thing_count && result == NOOK_OK; i++) {
+        result = make_body(s, &s->things[i], &defaults);
+        if (result == NOOK_OK)
+            result = tell_entity(s, &s->things[i]);
+    }
+    for (uint32_t i = 0; i < s->thing_count && result == NOOK_OK; i++) {
+        if (s->things[i].motion == NOOK_BODY_DYNAMIC && is_carried(s, &s->things[i]))
+            nook_physics_sleep(s->physics, s->things[i].body);
+    }
+    return result;
+}
+
+/* ---- Asking ------------------------------------------------------------------------------------------------------ */
+
+uint32_t session_thing_of_body(const nook_session *s, nook_body body)
+{
+    uint64_t user = nook_physics_user(s->physics, body);
+    return user > 0 && user <= s->thing_count ? (uint32_t)user - 1 : NOOK_NONE;
+}
+
+const char *session_thing_name(const nook_session *s, uint32_t thing)
+{
+    return thing == NOOK_NONE ? "" : s->desc.scene->nodes[s->things[thing].node].name;
+}
+
+void session_thing_middle(const nook_session *s, const session_thing *thing, double out[3])
+{
+    nook_pose pose = nook_physics_pose(s->physics, thing->body, 1.0);
+    nook_pose_apply_point(&pose, thing->middle, out);
+}
+
+/* ---- Coming back ------------------------------------------------------------------------------------------------- */
+
+static bool is_outside(const nook_scene *scene, const double at[3])
+{
+    const double margin = 20.0, deepest = -20.0;
+    bool outside = at[1] < fmin(deepest, scene->bounds_min[1] - margin);
+    for (int k = 0; k < 3; k++)
+        outside = outside || at[k] < scene->bounds_min[k] - margin || at[k] > scene->bounds_max[k] + margin;
+    return outside;
+}
+
+void session_return_bodies(nook_session *s)
+{
+    for (uint32_t i = 0; i < s->thing_count; i++) {
+        const session_thing *thing = &s->things[i];
+        if (thing->motion != NOOK_BODY_DYNAMIC || nook_physics_asleep(s->physics, thing->body))
+            continue;
+        nook_pose pose = nook_physics_pose(s->physics, thing->body, 1.0);
+        if (!is_outside(s->desc.scene, pose.position))
+            continue;
+        if (s->carry.thing == i)
+            session_carry_drop(s);
+        nook_physics_set_pose(s->physics, thing->body, &thing->start);
+    }
+    if (is_outside(s->desc.scene, s->player.feet)) {
+        nook_pose start = nook_pose_identity();
+        memcpy(start.position, s->desc.level->start, sizeof start.position);
+        nook_physics_set_pose(s->physics, s->player.body, &start);
+        memcpy(s->player.feet, start.position, sizeof s->player.feet);
+        memcpy(s->player.was_feet, start.position, sizeof s->player.was_feet);
+    }
+}
