@@ -6,6 +6,8 @@ extern "C" {
 
 /** Milliseconds of a monotonic clock with an arbitrary start; differences are wall time. */
 double nook_clock_ms(void);
+/** Milliseconds that all threads of this process have computed: what a busy machine stretches less than wall time. */
+double nook_clock_cpu_ms(void);
 
 #ifdef __cplusplus
 }

@@ -87,7 +87,7 @@ static bool normal_matrix(const nook_matrix *world_from_mesh, float out[3][4])
 
 /** One draw as an instance. @return false when it is left out */
 static bool make_instance(const nook_mesh *mesh, const nook_draw *draw, const batch_view *view, draw_set *set,
-                          instance_data *out)
+                          instance_data *out, double *out_near)
 {
     if (mesh->primitive_count == 0 || !(mesh->bounds_min[0] <= mesh->bounds_max[0]))
         return false;
@@ -97,6 +97,7 @@ static bool make_instance(const nook_mesh *mesh, const nook_draw *draw, const ba
         return false;
     if (!normal_matrix(&draw->world_from_local, out->world_normal_from_mesh))
         return false;
+    *out_near = near;
     nook_matrix_to_float(&view_from_mesh, out->view_from_mesh);
     set->near_distance = fmin(set->near_distance, fmax(near, view->z_near));
     set->far_distance = fmax(set->far_distance, far);
@@ -118,10 +119,51 @@ static void make_batches(draw_set *set, uint32_t bucket_count)
         uint32_t count = counts[i];
         counts[i] = first;
         if (count > 0)
-            batches[set->batch_count++] = (batch){ i / 2, first, count, i % 2 == 1 };
+            batches[set->batch_count++] = (batch){ i / 2, first, count, i % 2 == 1, INFINITY };
         first += count;
     }
     set->instance_count = first;
+}
+
+static int compare_near(double a, double b)
+{
+    return (a > b) - (a < b);
+}
+
+/** Equal distances keep their order, so that a picture does not depend on how the library sorts. */
+static int compare_kept(const void *a, const void *b)
+{
+    const kept_draw *x = a, *y = b;
+    int order = compare_near(x->near, y->near);
+    return order != 0 ? order : (x->draw > y->draw) - (x->draw < y->draw);
+}
+
+static int compare_batches(const void *a, const void *b)
+{
+    const batch *x = a, *y = b;
+    int order = compare_near(x->near, y->near);
+    return order != 0 ? order : (x->first_instance > y->first_instance) - (x->first_instance < y->first_instance);
+}
+
+/** Puts each instance into its bucket's place, the nearest ones first, and then the batches with the nearest ones first. */
+static void place_instances(draw_set *set, uint32_t kept_count, uint32_t bucket_count)
+{
+    const instance_data *unsorted = set->unsorted.items;
+    instance_data *instances = set->instances.items;
+    kept_draw *kept = set->kept.items;
+    uint32_t *counts = set->counts.items;
+    batch *batches = set->batches.items;
+    qsort(kept, kept_count, sizeof *kept, compare_kept);
+    make_batches(set, bucket_count);
+    for (uint32_t i = 0; i < kept_count; i++)
+        instances[counts[kept[i].bucket]++] = unsorted[kept[i].draw];
+    for (uint32_t i = 0, at = 0; i < bucket_count; i++) { /* counts[i] is where bucket i ends now */
+        if (at < set->batch_count && batches[at].first_instance < counts[i])
+            counts[i] = at++;
+    }
+    for (uint32_t i = kept_count; i-- > 0;)
+        batches[counts[kept[i].bucket]].near = kept[i].near;
+    qsort(batches, set->batch_count, sizeof *batches, compare_batches);
 }
 
 static nook_result upload_instances(nook_gpu *gpu, draw_set *set)
@@ -144,31 +186,29 @@ static nook_result upload_instances(nook_gpu *gpu, draw_set *set)
 nook_result nook_batch(nook_gpu *gpu, const nook_frame *frame, const batch_view *view, draw_set *set)
 {
     const nook_scene *scene = frame->scene->scene;
-    uint32_t bucket_count = scene->mesh_count * 2;
+    uint32_t bucket_count = scene->mesh_count * 2, kept_count = 0;
     size_t count = frame->draw_count;
     if (!nook_grow(&set->unsorted, count * sizeof(instance_data)) ||
         !nook_grow(&set->instances, count * sizeof(instance_data)) ||
-        !nook_grow(&set->order, count * sizeof(uint32_t)) ||
+        !nook_grow(&set->kept, count * sizeof(kept_draw)) ||
         !nook_grow(&set->counts, bucket_count * sizeof(uint32_t)) || !nook_grow(&set->batches, count * sizeof(batch)))
         return nook_fail(NOOK_E_MEMORY, "%zu draws: no memory for their instances", count);
 
-    instance_data *unsorted = set->unsorted.items, *instances = set->instances.items;
-    uint32_t *buckets = set->order.items, *counts = set->counts.items;
+    instance_data *unsorted = set->unsorted.items;
+    kept_draw *kept = set->kept.items;
+    uint32_t *counts = set->counts.items;
     set->near_distance = INFINITY, set->far_distance = -INFINITY;
     for (uint32_t i = 0; i < bucket_count; i++)
         counts[i] = 0;
-    for (size_t i = 0; i < count; i++) {
+    for (uint32_t i = 0; i < (uint32_t)count; i++) {
         const nook_draw *draw = &frame->draws[i];
-        bool kept = make_instance(&scene->meshes[draw->mesh], draw, view, set, &unsorted[i]);
-        buckets[i] = kept ? bucket_of(draw) : NOOK_NONE;
-        if (kept)
-            counts[buckets[i]]++;
+        double near = 0.0;
+        if (!make_instance(&scene->meshes[draw->mesh], draw, view, set, &unsorted[i], &near))
+            continue;
+        kept[kept_count] = (kept_draw){ i, bucket_of(draw), near };
+        counts[kept[kept_count++].bucket]++;
     }
-    make_batches(set, bucket_count);
-    for (size_t i = 0; i < count; i++) {
-        if (buckets[i] != NOOK_NONE)
-            instances[counts[buckets[i]]++] = unsorted[i];
-    }
+    place_instances(set, kept_count, bucket_count);
     return upload_instances(gpu, set);
 }
 
@@ -177,7 +217,7 @@ void nook_draw_set_destroy(nook_gpu *gpu, draw_set *set)
     nook_buffer_destroy(gpu, &set->buffer);
     free(set->unsorted.items);
     free(set->instances.items);
-    free(set->order.items);
+    free(set->kept.items);
     free(set->counts.items);
     free(set->batches.items);
     *set = (draw_set){ 0 };

@@ -92,7 +92,14 @@ typedef struct batch {
     uint32_t mesh;
     uint32_t first_instance, instance_count;
     bool mirrored; /* its triangles wind the other way */
+    double near;   /* of its nearest instance, along the view axis; 0 when nothing is culled */
 } batch;
+
+/** A draw that is in view, and where. */
+typedef struct kept_draw {
+    uint32_t draw, bucket; /* bucket: mesh and handedness */
+    double near;           /* along the view axis; 0 when nothing is culled */
+} kept_draw;
 
 /** One blended primitive of one instance. */
 typedef struct blended_draw {
@@ -110,9 +117,9 @@ typedef struct grow_list {
 /** What one pass draws: instances in a GPU buffer, and runs of them. */
 typedef struct draw_set {
     grow_list unsorted;  /* instance_data, in the order of the draws */
-    grow_list order;     /* uint32_t: bucket of each draw, or NOOK_NONE when it is left out */
+    grow_list kept;      /* kept_draw: those in view, nearest first */
     grow_list instances; /* instance_data */
-    grow_list batches;   /* batch */
+    grow_list batches;   /* batch, nearest first: what lies behind is not shaded */
     grow_list counts;    /* uint32_t: draws per mesh and handedness */
     uint32_t instance_count, batch_count;
     double near_distance, far_distance; /* along the view axis, of the boxes of what is in it; near > far when empty */

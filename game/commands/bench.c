@@ -1,88 +1,34 @@
-#include "engine/core/json.h"
-#include "game/commands/bench_ecs.h"
+#include "engine/core/result.h"
+#include "game/commands/benches.h"
 #include "game/commands/commands.h"
+#include <stdio.h>
 #include <string.h>
 
-typedef struct bench_settings {
-    int32_t entities, repeat;
-    bool json;
-} bench_settings;
+static const nook_command benches[] = {
+    { "ecs", "create, change, walk and destroy entities", nook_bench_run_ecs },
+    { "frame", "where the milliseconds of a frame go, with bodies that move", nook_bench_run_frame },
+};
 
-static void print_table(const bench_settings *settings, const nook_bench_times *times)
+static void print_usage(FILE *stream)
 {
-    printf("ECS: %d entities, %d rounds, one thread; nanoseconds per entity\n\n", (int)settings->entities,
-           (int)settings->repeat);
-    printf("  %-12s %8s %8s %8s\n", "step", "median", "lowest", "highest");
-    for (nook_bench_ecs_step step = 0; step < NOOK_BENCH_STEP_COUNT; step++)
-        printf("  %-12s %8.2f %8.2f %8.2f\n", nook_bench_ecs_name(step), times[step].median, times[step].lowest,
-               times[step].highest);
-}
-
-static nook_result print_json(const bench_settings *settings, const nook_bench_times *times)
-{
-    nook_json json = { 0 };
-    nook_json_begin_object(&json);
-    nook_json_member_string(&json, "bench", "ecs");
-    nook_json_member_integer(&json, "entities", settings->entities);
-    nook_json_member_integer(&json, "repeat", settings->repeat);
-    nook_json_key(&json, "ns_per_entity");
-    nook_json_begin_object(&json);
-    for (nook_bench_ecs_step step = 0; step < NOOK_BENCH_STEP_COUNT; step++) {
-        nook_json_key(&json, nook_bench_ecs_name(step));
-        nook_json_begin_object(&json);
-        nook_json_member_number(&json, "median", times[step].median);
-        nook_json_member_number(&json, "lowest", times[step].lowest);
-        nook_json_member_number(&json, "highest", times[step].highest);
-        nook_json_end_object(&json);
-    }
-    nook_json_end_object(&json);
-    nook_json_end_object(&json);
-    nook_result result = nook_json_print(&json, stdout);
-    nook_json_free(&json);
-    return result;
+    fprintf(stream, "usage: nook bench PART [OPTIONS]\n\nTimes a part of the engine; nook bench PART --help lists its "
+                    "options.\n\n");
+    for (size_t i = 0; i < NOOK_COUNT(benches); i++)
+        fprintf(stream, "  %-10s %s\n", benches[i].name, benches[i].summary);
 }
 
 int nook_command_bench(const nook_app *app, int argc, char **argv)
 {
-    (void)app;
-    bench_settings settings = { .entities = 1000000, .repeat = 7 };
-    const nook_option options[] = {
-        { .name = "entities",
-          .kind = NOOK_OPTION_INT,
-          .target = &settings.entities,
-          .placeholder = "N",
-          .help = "how many entities; 1000000",
-          .lowest = 1,
-          .highest = 50000000 },
-        { .name = "repeat",
-          .kind = NOOK_OPTION_INT,
-          .target = &settings.repeat,
-          .placeholder = "N",
-          .help = "rounds to take the median of, after one to warm up; 7",
-          .lowest = 1,
-          .highest = NOOK_BENCH_ROUNDS_MAX },
-        { .name = "json", .kind = NOOK_OPTION_FLAG, .target = &settings.json, .help = "print JSON" },
-    };
-    const nook_usage usage = { .command = "bench",
-                               .summary = "Times a part of the engine. ecs: create, change, walk and destroy entities.",
-                               .positionals = "ecs",
-                               .positional_min = 1,
-                               .positional_max = 1,
-                               .options = options,
-                               .option_count = NOOK_COUNT(options) };
-    nook_arguments arguments;
-    int exit_code;
-    if (!nook_arguments_read(&usage, argc, argv, &arguments, &exit_code))
-        return exit_code;
-    if (strcmp(arguments.positionals[0], "ecs") != 0) {
-        fprintf(stderr, "nook: bench %s: there is no such benchmark; give ecs\n", arguments.positionals[0]);
-        return NOOK_EXIT_USAGE;
+    const nook_command *bench = argc > 1 ? nook_command_find(benches, NOOK_COUNT(benches), argv[1]) : NULL;
+    if (bench)
+        return bench->run(app, argc - 1, argv + 1);
+    if (argc > 1 && (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0)) {
+        print_usage(stdout);
+        return NOOK_EXIT_OK;
     }
-    nook_bench_times times[NOOK_BENCH_STEP_COUNT];
-    nook_result result = nook_bench_ecs((uint32_t)settings.entities, (uint32_t)settings.repeat, times);
-    if (result == NOOK_OK && settings.json)
-        result = print_json(&settings, times);
-    else if (result == NOOK_OK)
-        print_table(&settings, times);
-    return result == NOOK_OK ? NOOK_EXIT_OK : NOOK_EXIT_FAILED;
+    if (argc > 1)
+        fprintf(stderr, "nook: bench %s: there is no such part; ./nook bench --help lists them\n", argv[1]);
+    else
+        print_usage(stderr);
+    return NOOK_EXIT_USAGE;
 }
