@@ -22,7 +22,8 @@ static int allocate_lists(nook_ao *ao)
     ao->occluders = calloc(ao->occluder_max, sizeof *ao->occluders);
     ao->gpu_occluders = calloc(ao->occluder_max, sizeof *ao->gpu_occluders);
     ao->instances = calloc(ao->occluder_max, sizeof *ao->instances);
-    return ao->occluders && ao->gpu_occluders && ao->instances;
+    ao->instance_occluders = calloc(ao->occluder_max, sizeof *ao->instance_occluders);
+    return ao->occluders && ao->gpu_occluders && ao->instances && ao->instance_occluders;
 }
 
 static nook_result create_buffers(nook_ao *ao, size_t frame_size)
@@ -91,6 +92,7 @@ void nook_ao_destroy(nook_ao *ao)
     free(ao->occluders);
     free(ao->gpu_occluders);
     free(ao->instances);
+    free(ao->instance_occluders);
     free(ao);
 }
 

@@ -82,6 +82,7 @@ struct nook_ao {
     uint32_t occluder_count, occluder_max;
     ao_gpu_occluder *gpu_occluders;   /**< Scratch of occluder_max. */
     nook_ao_mesh_instance *instances; /**< Scratch of occluder_max. */
+    uint32_t *instance_occluders;     /**< Of each instance: which occluder it is. Scratch of occluder_max. */
     nook_ao_mesh_view *mesh_views;    /**< Scratch of mesh_capacity. */
     nook_ao_statistics statistics;
     ao_region recorded; /**< By the last record. */
@@ -99,6 +100,29 @@ nook_result ao_trace_fit_filtered(nook_gpu *gpu, ao_trace *trace);
 void ao_targets_release(nook_gpu *gpu, ao_targets *targets);
 uint64_t ao_targets_bytes(const ao_targets *targets, uint32_t scale); /**< Those that a record of that scale uses. */
 
+enum { AO_BINDING_COUNTER = 7 };
+
+/** What a record asks of ao_begin. */
+typedef struct ao_work {
+    uint32_t inputs; /**< NOOK_AO_IN_*. */
+    uint32_t scale;  /**< Of the trace: its exponent. */
+    int32_t passes;  /**< After the trace, that read pixels around: ao_region_make. */
+    int counting;    /**< frame.counting of shaders/ao/counter.glsl. */
+} ao_work;
+
+/**
+ * Checks the frame and makes everything ready for a trace: lists of occluders, targets, uniforms, depth and normals.
+ * @param out_pass  without a technique's parameters; nothing is bound
+ */
+nook_result ao_begin(nook_ao *ao, const nook_ao_frame *frame, const ao_work *work, nook_ao_pass *out_pass);
+/** Depth and normals of the whole picture: techniques look beyond the part that is recorded. */
+nook_result ao_fill_inputs(nook_ao *ao, const nook_ao_frame *frame);
+/** From the trace's visibility to that of the picture. */
+nook_result ao_filter(nook_ao *ao);
+/** Runs one of our own shaders, 16 x 8 pixels a group, with what is bound. */
+nook_result ao_dispatch_over(nook_ao *ao, const char *path, const char *defines, uint32_t width, uint32_t height);
+nook_texture ao_host_texture(nook_ao_texture texture);
+
 /** @return NOOK_E_RANGE a part that leaves the picture */
 nook_result ao_region_check(const nook_ao *ao, const nook_rectangle *part);
 /** @param scale 1, 2, 4 @param passes  after the trace, that read pixels around: 0, 1 filter, 2 filter and upscaling */
@@ -111,7 +135,7 @@ void ao_depth_error(nook_gpu *gpu, nook_ao_texture depth, const double clip_from
 
 /** Composes this frame's marched occluders into ao->gpu_occluders. @return how many */
 uint32_t ao_collect_volumes(nook_ao *ao, const nook_matrix *view_from_world);
-/** Composes this frame's traced instances into ao->instances and ao->mesh_views. @return how many instances */
+/** Composes this frame's traced instances into ao->instances, ao->instance_occluders and ao->mesh_views. @return how many */
 uint32_t ao_collect_meshes(nook_ao *ao, const nook_matrix *view_from_world);
 /** By id, in the time of a binary search. @return UINT32_MAX when there is none */
 uint32_t ao_mesh_index(const nook_ao *ao, uint32_t id);

@@ -99,6 +99,7 @@ uint32_t ao_collect_meshes(nook_ao *ao, const nook_matrix *view_from_world)
         nook_matrix world_from_mesh = matrix_of(ao->occluders[i].world_from_mesh), unused;
         if (mesh == UINT32_MAX || !nook_matrix_inverse_affine(&world_from_mesh, &unused))
             continue;
+        ao->instance_occluders[count] = i;
         ao->instances[count++] =
             (nook_ao_mesh_instance){ mesh, nook_matrix_multiply(view_from_world, &world_from_mesh) };
     }

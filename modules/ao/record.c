@@ -9,12 +9,12 @@
 _Static_assert(offsetof(frame_block, view_from_world) == 96, "std140 places view_from_world at 96");
 _Static_assert(offsetof(frame_block, origin) == 144 && sizeof(frame_block) == 192, "std140 places origin at 144");
 
-enum { BINDING_COUNTER = 7, BINDING_FETCHES = 2 };
+enum { BINDING_FETCHES = 2 };
 enum { COUNT_SUMS = 1, COUNT_PIXELS = 2 }; /* shaders/ao/counter.glsl */
 
 static const double RIGID_TOLERANCE = 1e-5; /* what a product of a few matrices in float leaves */
 
-static nook_texture host_texture(nook_ao_texture texture)
+nook_texture ao_host_texture(nook_ao_texture texture)
 {
     return (nook_texture){
         .id = texture.native, .target = GL_TEXTURE_2D, .width = texture.width, .height = texture.height, .depth = 1
@@ -51,8 +51,6 @@ static int is_rigid(const double m[16])
 static nook_result check_frame(const nook_ao *ao, const nook_ao_frame *frame)
 {
     const double *p = frame->clip_from_view;
-    if (ao->slot_count == 0)
-        return nook_fail(NOOK_E_ARG, "nook_ao_record: add a technique first");
     if (frame->depth.native == 0 || frame->depth.width != ao->width || frame->depth.height != ao->height)
         return nook_fail(NOOK_E_ARG, "nook_ao_record: depth is %ux%u, the context %ux%u", frame->depth.width,
                          frame->depth.height, ao->width, ao->height);
@@ -121,128 +119,22 @@ static frame_block make_block(const nook_ao *ao, const nook_ao_frame *frame, int
     return block;
 }
 
-/** Runs one of our own shaders, 16 x 8 pixels a group, with what is bound. */
-static nook_result dispatch_over(nook_ao *ao, const char *path, const char *defines, uint32_t width, uint32_t height)
-{
-    nook_program program;
-    nook_bind_uniform(ao->gpu, 0, ao->frame);
-    nook_bind_storage(ao->gpu, BINDING_COUNTER, ao->counter);
-    nook_result result = nook_program_compute(ao->gpu, path, defines, &program);
-    if (result == NOOK_OK)
-        nook_dispatch(ao->gpu, program, nook_groups(width, 16), nook_groups(height, 8), 1);
-    return result;
-}
-
-static nook_result dispatch_prepare(nook_ao *ao, const nook_ao_frame *frame)
-{
-    nook_bind_texture(ao->gpu, 0, host_texture(frame->depth));
-    nook_bind_texture(ao->gpu, 1, host_texture(frame->normal.native ? frame->normal : frame->depth));
-    nook_bind_image(ao->gpu, 0, ao->targets.depth, GL_WRITE_ONLY);
-    nook_bind_image(ao->gpu, 1, ao->targets.normal, GL_WRITE_ONLY);
-    return dispatch_over(ao, "shaders/ao/prepare.comp.glsl", "", ao->width, ao->height);
-}
-
-static nook_result dispatch_pick(nook_ao *ao)
-{
-    const ao_targets *targets = &ao->targets;
-    const ao_trace *trace = &targets->traces[ao->scale];
-    nook_bind_texture(ao->gpu, 0, targets->depth);
-    nook_bind_texture(ao->gpu, 1, targets->normal);
-    nook_bind_image(ao->gpu, 0, trace->depth, GL_WRITE_ONLY);
-    nook_bind_image(ao->gpu, 1, trace->normal, GL_WRITE_ONLY);
-    return dispatch_over(ao, "shaders/ao/pick.comp.glsl", "", trace->depth.width, trace->depth.height);
-}
-
-/** Depth and normals of the whole picture: techniques look beyond the part that is recorded. */
-static nook_result fill_inputs(nook_ao *ao, const nook_ao_frame *frame)
-{
-    ao_targets *targets = &ao->targets;
-    ao_trace *trace = &targets->traces[ao->scale];
-    nook_result result = NOOK_OK;
-    if (!frame->same_view || !targets->holds_view) {
-        for (int i = 0; i < AO_SCALES; i++)
-            targets->traces[i].holds_view = 0;
-        result = dispatch_prepare(ao, frame);
-        targets->holds_view = result == NOOK_OK;
-    }
-    if (result == NOOK_OK && ao->scale > 0 && !trace->holds_view) {
-        result = dispatch_pick(ao);
-        trace->holds_view = result == NOOK_OK;
-    }
-    return result;
-}
-
-/** What guide.glsl binds; `samples` of the trace's visibility. */
-static void bind_guides(nook_ao *ao, nook_texture samples, nook_texture out)
-{
-    const ao_targets *targets = &ao->targets;
-    const ao_trace *trace = &targets->traces[ao->scale];
-    nook_bind_texture(ao->gpu, 0, targets->depth);
-    nook_bind_texture(ao->gpu, 1, targets->normal);
-    nook_bind_texture(ao->gpu, 2, ao->scale > 0 ? trace->depth : targets->depth);
-    nook_bind_texture(ao->gpu, 3, ao->scale > 0 ? trace->normal : targets->normal);
-    nook_bind_texture(ao->gpu, 4, samples);
-    nook_bind_image(ao->gpu, 0, out, GL_WRITE_ONLY);
-}
-
-/** Runs a shader that writes the wanted pixels of the picture. */
-static nook_result dispatch_full(nook_ao *ao, const char *path)
-{
-    const ao_region *region = &ao->recorded;
-    return dispatch_over(ao, path, "", (uint32_t)(region->full_end[0] - region->full_begin[0]),
-                         (uint32_t)(region->full_end[1] - region->full_begin[1]));
-}
-
-static nook_result filter_direct(nook_ao *ao)
-{
-    bind_guides(ao, ao->targets.traces[ao->scale].visibility, ao->targets.visibility);
-    return dispatch_full(ao, "shaders/ao/filter.comp.glsl");
-}
-
-/** Where the picture has 4 or 16 times the pixels of the trace, most of the filter's work is done once for all of them. */
-static nook_result filter_stepped(nook_ao *ao)
-{
-    ao_trace *trace = &ao->targets.traces[ao->scale];
-    const ao_region *region = &ao->recorded;
-    nook_texture samples = trace->visibility;
-    nook_result result = NOOK_OK;
-    if (ao->shared.filter != 0) {
-        result = ao_trace_fit_filtered(ao->gpu, trace);
-        if (result != NOOK_OK)
-            return result;
-        bind_guides(ao, samples, trace->filtered);
-        result =
-            dispatch_over(ao, "shaders/ao/filter.comp.glsl", "#define AT_TRACE\n",
-                          (uint32_t)(region->end[0] - region->begin[0]), (uint32_t)(region->end[1] - region->begin[1]));
-        samples = trace->filtered;
-    }
-    if (result != NOOK_OK)
-        return result;
-    bind_guides(ao, samples, ao->targets.visibility);
-    return dispatch_full(ao, "shaders/ao/upscale.comp.glsl");
-}
-
-static nook_result upload_inputs(nook_ao *ao, const ao_slot *slot, const nook_ao_frame *frame)
+static nook_result upload_inputs(nook_ao *ao, const nook_ao_frame *frame, int counting)
 {
     static const ao_counts zero = { 0 };
     nook_result result = volume_atlas_flush(&ao->atlas);
     if (result != NOOK_OK)
         return result;
-    int counting = slot->technique->exact ? 0 /* truth reads nothing of the kind */
-                                          : ao->shared.count * COUNT_SUMS + (frame->fetches.native != 0) * COUNT_PIXELS;
     frame_block block = make_block(ao, frame, counting);
     nook_buffer_update(ao->gpu, ao->frame, 0, &block, sizeof block);
     nook_buffer_update(ao->gpu, ao->counter, 0, &zero, sizeof zero);
-    if (slot->technique->params_size)
-        nook_buffer_update(ao->gpu, slot->buffer, 0, slot->params, slot->technique->params_size);
     if (ao->statistics.occluders)
         nook_buffer_update(ao->gpu, ao->occluder_buffer, 0, ao->gpu_occluders,
                            ao->statistics.occluders * sizeof *ao->gpu_occluders);
     return NOOK_OK;
 }
 
-static nook_ao_pass make_pass(nook_ao *ao, const ao_slot *slot, const nook_ao_frame *frame, uint32_t instances,
-                              int direct)
+static nook_ao_pass make_pass(nook_ao *ao, const nook_ao_frame *frame, uint32_t instances, int direct)
 {
     const ao_targets *targets = &ao->targets;
     const ao_trace *trace = &targets->traces[ao->scale];
@@ -256,7 +148,6 @@ static nook_ao_pass make_pass(nook_ao *ao, const ao_slot *slot, const nook_ao_fr
         .normal = full ? targets->normal : trace->normal,
         .visibility = direct ? targets->visibility : trace->visibility,
         .frame = ao->frame,
-        .params = slot->buffer,
         .counter = ao->counter,
         .counting = ao->shared.count,
         .width = trace->visibility.width,
@@ -290,48 +181,80 @@ static void bind_pass(const nook_ao_pass *pass)
     nook_bind_texture(pass->gpu, 1, pass->normal);
     nook_bind_texture(pass->gpu, 2, pass->volume_atlas);
     nook_bind_storage(pass->gpu, 3, pass->occluders);
-    nook_bind_storage(pass->gpu, BINDING_COUNTER, pass->counter);
+    nook_bind_storage(pass->gpu, AO_BINDING_COUNTER, pass->counter);
     nook_bind_image(pass->gpu, 0, pass->visibility, GL_READ_WRITE);
 }
 
-nook_result nook_ao_record(nook_ao *ao, const nook_ao_frame *frame)
+static void bind_fetches(nook_ao *ao, const nook_ao_frame *frame)
+{
+    nook_texture fetches = ao_host_texture(frame->fetches);
+    fetches.format = GL_R32UI;
+    if (fetches.id)
+        nook_bind_image(ao->gpu, BINDING_FETCHES, fetches, GL_READ_WRITE);
+}
+
+nook_result ao_begin(nook_ao *ao, const nook_ao_frame *frame, const ao_work *work, nook_ao_pass *out_pass)
 {
     nook_result result = check_frame(ao, frame);
     if (result != NOOK_OK)
         return result;
     nook_gpu_check(ao->gpu, "what was done before nook_ao_record"); /* the host's errors are not ours */
-    const ao_slot *slot = &ao->slots[ao->current];
-    const nook_ao_technique *technique = slot->technique;
     uint32_t instances = 0;
-    ao->scale = trace_scale(ao, technique);
-    int direct = ao->scale == 0 && (technique->exact || ao->shared.filter == 0);
-    int stepped = ao->scale > 0 && ao->shared.upscale;
-    ao->recorded = ao_region_make(ao, &frame->part, 1u << ao->scale, direct ? 0 : 1 + stepped);
+    ao->scale = work->scale;
+    ao->recorded = ao_region_make(ao, &frame->part, 1u << work->scale, work->passes);
     nook_matrix view_from_world;
     memcpy(view_from_world.m, frame->view_from_world, sizeof view_from_world.m);
-    ao->statistics.occluders = technique->inputs & NOOK_AO_IN_VOLUMES ? ao_collect_volumes(ao, &view_from_world) : 0;
-    if (technique->inputs & NOOK_AO_IN_MESHES)
+    ao->statistics.occluders = work->inputs & NOOK_AO_IN_VOLUMES ? ao_collect_volumes(ao, &view_from_world) : 0;
+    if (work->inputs & NOOK_AO_IN_MESHES)
         instances = ao_collect_meshes(ao, &view_from_world);
-
-    if (frame->fetches.native) {
-        nook_texture fetches = host_texture(frame->fetches);
-        fetches.format = GL_R32UI;
-        nook_bind_image(ao->gpu, BINDING_FETCHES, fetches, GL_READ_WRITE);
-    }
+    bind_fetches(ao, frame);
     result = ao_targets_fit(ao->gpu, &ao->targets, ao->width, ao->height, ao->scale);
     if (result == NOOK_OK)
-        result = upload_inputs(ao, slot, frame);
+        result = upload_inputs(ao, frame, work->counting);
     if (result == NOOK_OK)
-        result = fill_inputs(ao, frame);
+        result = ao_fill_inputs(ao, frame);
     if (result != NOOK_OK)
         return result;
-    nook_ao_pass pass = make_pass(ao, slot, frame, instances, direct);
-    if (technique->inputs & NOOK_AO_IN_MESHES)
-        ao_depth_error(ao->gpu, frame->depth, frame->clip_from_view, pass.depth_error);
-    bind_pass(&pass);
-    result = technique->record(slot->state, slot->params, &pass);
-    if (result == NOOK_OK && !direct)
-        result = stepped ? filter_stepped(ao) : filter_direct(ao);
+    *out_pass = make_pass(ao, frame, instances, work->passes == 0);
+    if (work->inputs & NOOK_AO_IN_MESHES)
+        ao_depth_error(ao->gpu, frame->depth, frame->clip_from_view, out_pass->depth_error);
+    return NOOK_OK;
+}
+
+static ao_work work_of(const nook_ao *ao, const nook_ao_technique *technique, const nook_ao_frame *frame)
+{
+    uint32_t scale = trace_scale(ao, technique);
+    int direct = scale == 0 && (technique->exact || ao->shared.filter == 0);
+    int stepped = scale > 0 && ao->shared.upscale;
+    int counting = ao->shared.count * COUNT_SUMS + (frame->fetches.native != 0) * COUNT_PIXELS;
+    return (ao_work){ .inputs = technique->inputs,
+                      .scale = scale,
+                      .passes = direct ? 0 : 1 + stepped,
+                      .counting = technique->exact ? 0 : counting /* truth reads nothing of the kind */ };
+}
+
+static nook_result trace(nook_ao *ao, const ao_slot *slot, nook_ao_pass *pass)
+{
+    if (slot->technique->params_size)
+        nook_buffer_update(ao->gpu, slot->buffer, 0, slot->params, slot->technique->params_size);
+    pass->params = slot->buffer;
+    bind_pass(pass);
+    return slot->technique->record(slot->state, slot->params, pass);
+}
+
+nook_result nook_ao_record(nook_ao *ao, const nook_ao_frame *frame)
+{
+    const ao_slot *slot = &ao->slots[ao->current];
+    nook_ao_pass pass;
+    if (ao->slot_count == 0)
+        return nook_fail(NOOK_E_ARG, "nook_ao_record: add a technique first");
+    ao_work work = work_of(ao, slot->technique, frame);
+    nook_result result = ao_begin(ao, frame, &work, &pass);
+    if (result != NOOK_OK)
+        return result;
+    result = trace(ao, slot, &pass);
+    if (result == NOOK_OK && work.passes > 0)
+        result = ao_filter(ao);
     if (nook_gpu_check(ao->gpu, "nook_ao_record") && result == NOOK_OK)
         result = NOOK_E_DEVICE; /* the check has logged what it was */
     return result;

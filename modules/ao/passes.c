@@ -1,0 +1,106 @@
+/* Our own passes around a technique: its inputs before it, filter and upscaling after it. */
+#include "modules/ao/ao_internal.h"
+
+nook_result ao_dispatch_over(nook_ao *ao, const char *path, const char *defines, uint32_t width, uint32_t height)
+{
+    nook_program program;
+    nook_bind_uniform(ao->gpu, 0, ao->frame);
+    nook_bind_storage(ao->gpu, AO_BINDING_COUNTER, ao->counter);
+    nook_result result = nook_program_compute(ao->gpu, path, defines, &program);
+    if (result == NOOK_OK)
+        nook_dispatch(ao->gpu, program, nook_groups(width, 16), nook_groups(height, 8), 1);
+    return result;
+}
+
+static nook_result dispatch_prepare(nook_ao *ao, const nook_ao_frame *frame)
+{
+    nook_bind_texture(ao->gpu, 0, ao_host_texture(frame->depth));
+    nook_bind_texture(ao->gpu, 1, ao_host_texture(frame->normal.native ? frame->normal : frame->depth));
+    nook_bind_image(ao->gpu, 0, ao->targets.depth, GL_WRITE_ONLY);
+    nook_bind_image(ao->gpu, 1, ao->targets.normal, GL_WRITE_ONLY);
+    return ao_dispatch_over(ao, "shaders/ao/prepare.comp.glsl", "", ao->width, ao->height);
+}
+
+static nook_result dispatch_pick(nook_ao *ao)
+{
+    const ao_targets *targets = &ao->targets;
+    const ao_trace *trace = &targets->traces[ao->scale];
+    nook_bind_texture(ao->gpu, 0, targets->depth);
+    nook_bind_texture(ao->gpu, 1, targets->normal);
+    nook_bind_image(ao->gpu, 0, trace->depth, GL_WRITE_ONLY);
+    nook_bind_image(ao->gpu, 1, trace->normal, GL_WRITE_ONLY);
+    return ao_dispatch_over(ao, "shaders/ao/pick.comp.glsl", "", trace->depth.width, trace->depth.height);
+}
+
+nook_result ao_fill_inputs(nook_ao *ao, const nook_ao_frame *frame)
+{
+    ao_targets *targets = &ao->targets;
+    ao_trace *trace = &targets->traces[ao->scale];
+    nook_result result = NOOK_OK;
+    if (!frame->same_view || !targets->holds_view) {
+        for (int i = 0; i < AO_SCALES; i++)
+            targets->traces[i].holds_view = 0;
+        result = dispatch_prepare(ao, frame);
+        targets->holds_view = result == NOOK_OK;
+    }
+    if (result == NOOK_OK && ao->scale > 0 && !trace->holds_view) {
+        result = dispatch_pick(ao);
+        trace->holds_view = result == NOOK_OK;
+    }
+    return result;
+}
+
+/** What guide.glsl binds; `samples` of the trace's visibility. */
+static void bind_guides(nook_ao *ao, nook_texture samples, nook_texture out)
+{
+    const ao_targets *targets = &ao->targets;
+    const ao_trace *trace = &targets->traces[ao->scale];
+    nook_bind_texture(ao->gpu, 0, targets->depth);
+    nook_bind_texture(ao->gpu, 1, targets->normal);
+    nook_bind_texture(ao->gpu, 2, ao->scale > 0 ? trace->depth : targets->depth);
+    nook_bind_texture(ao->gpu, 3, ao->scale > 0 ? trace->normal : targets->normal);
+    nook_bind_texture(ao->gpu, 4, samples);
+    nook_bind_image(ao->gpu, 0, out, GL_WRITE_ONLY);
+}
+
+/** Runs a shader that writes the wanted pixels of the picture. */
+static nook_result dispatch_full(nook_ao *ao, const char *path)
+{
+    const ao_region *region = &ao->recorded;
+    return ao_dispatch_over(ao, path, "", (uint32_t)(region->full_end[0] - region->full_begin[0]),
+                            (uint32_t)(region->full_end[1] - region->full_begin[1]));
+}
+
+static nook_result filter_direct(nook_ao *ao)
+{
+    bind_guides(ao, ao->targets.traces[ao->scale].visibility, ao->targets.visibility);
+    return dispatch_full(ao, "shaders/ao/filter.comp.glsl");
+}
+
+/** Where the picture has 4 or 16 times the pixels of the trace, most of the filter's work is done once for all of them. */
+static nook_result filter_stepped(nook_ao *ao)
+{
+    ao_trace *trace = &ao->targets.traces[ao->scale];
+    const ao_region *region = &ao->recorded;
+    nook_texture samples = trace->visibility;
+    nook_result result = NOOK_OK;
+    if (ao->shared.filter != 0) {
+        result = ao_trace_fit_filtered(ao->gpu, trace);
+        if (result != NOOK_OK)
+            return result;
+        bind_guides(ao, samples, trace->filtered);
+        result = ao_dispatch_over(ao, "shaders/ao/filter.comp.glsl", "#define AT_TRACE\n",
+                                  (uint32_t)(region->end[0] - region->begin[0]),
+                                  (uint32_t)(region->end[1] - region->begin[1]));
+        samples = trace->filtered;
+    }
+    if (result != NOOK_OK)
+        return result;
+    bind_guides(ao, samples, ao->targets.visibility);
+    return dispatch_full(ao, "shaders/ao/upscale.comp.glsl");
+}
+
+nook_result ao_filter(nook_ao *ao)
+{
+    return ao->scale > 0 && ao->shared.upscale ? filter_stepped(ao) : filter_direct(ao);
+}
