@@ -11,38 +11,40 @@
 enum { PATH_CAPACITY = 4096 };
 static const size_t file_size_max = (size_t)4 << 30;
 
-static nook_result check_readable(const char *path, const struct stat *info)
+static nook_result check_readable(const char *path, const struct stat *info, char *out_why, size_t capacity)
 {
     if (S_ISDIR(info->st_mode))
-        return nook_fail(NOOK_E_IO, "%s: is a directory; name a file", path);
+        return nook_refuse(out_why, capacity, NOOK_E_IO, "%s: is a directory; name a file", path);
     if (!S_ISREG(info->st_mode))
-        return nook_fail(NOOK_E_IO, "%s: not a regular file; name one that holds the bytes themselves", path);
+        return nook_refuse(out_why, capacity, NOOK_E_IO,
+                           "%s: not a regular file; name one that holds the bytes themselves", path);
     if ((size_t)info->st_size > file_size_max)
-        return nook_fail(NOOK_E_MEMORY, "%s: %lld bytes; files over 4 GiB are not read", path,
-                         (long long)info->st_size);
+        return nook_refuse(out_why, capacity, NOOK_E_MEMORY, "%s: %lld bytes; files over 4 GiB are not read", path,
+                           (long long)info->st_size);
     return NOOK_OK;
 }
 
-static nook_result read_open_file(const char *path, int descriptor, nook_file *out_file)
+static nook_result read_open_file(const char *path, int descriptor, nook_file *out_file, char *out_why, size_t capacity)
 {
     struct stat info;
     if (fstat(descriptor, &info) != 0)
-        return nook_fail(NOOK_E_IO, "%s: %s", path, strerror(errno));
-    nook_result result = check_readable(path, &info);
+        return nook_refuse(out_why, capacity, NOOK_E_IO, "%s: %s", path, strerror(errno));
+    nook_result result = check_readable(path, &info, out_why, capacity);
     if (result != NOOK_OK)
         return result;
     size_t size = (size_t)info.st_size;
     uint8_t *bytes = malloc(size + 1);
     if (!bytes)
-        return nook_fail(NOOK_E_MEMORY, "%s: no memory for %zu bytes", path, size);
+        return nook_refuse(out_why, capacity, NOOK_E_MEMORY, "%s: no memory for %zu bytes", path, size);
     size_t done = 0;
     while (done < size) {
         ssize_t got = read(descriptor, bytes + done, size - done);
         if (got < 0 && errno == EINTR)
             continue;
         if (got <= 0) {
+            const char *reason = got < 0 ? strerror(errno) : "became shorter while it was read";
             free(bytes);
-            return nook_fail(NOOK_E_IO, "%s: %s", path, got < 0 ? strerror(errno) : "became shorter while it was read");
+            return nook_refuse(out_why, capacity, NOOK_E_IO, "%s: %s", path, reason);
         }
         done += (size_t)got;
     }
@@ -51,17 +53,24 @@ static nook_result read_open_file(const char *path, int descriptor, nook_file *o
     return NOOK_OK;
 }
 
-nook_result nook_file_read(const char *path, nook_file *out_file)
+nook_result nook_file_try_read(const char *path, nook_file *out_file, char *out_why, size_t capacity)
 {
     /* O_NONBLOCK: opening a pipe that nobody writes to must not hang. */
     int descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (descriptor < 0 && (errno == ENOENT || errno == ENOTDIR))
-        return nook_fail(NOOK_E_NOT_FOUND, "%s: no such file; check the path", path);
+        return nook_refuse(out_why, capacity, NOOK_E_NOT_FOUND, "%s: no such file; check the path", path);
     if (descriptor < 0)
-        return nook_fail(NOOK_E_IO, "%s: %s", path, strerror(errno));
-    nook_result result = read_open_file(path, descriptor, out_file);
+        return nook_refuse(out_why, capacity, NOOK_E_IO, "%s: %s", path, strerror(errno));
+    nook_result result = read_open_file(path, descriptor, out_file, out_why, capacity);
     close(descriptor);
     return result;
+}
+
+nook_result nook_file_read(const char *path, nook_file *out_file)
+{
+    char text[PATH_CAPACITY + 128];
+    nook_result result = nook_file_try_read(path, out_file, text, sizeof text);
+    return result == NOOK_OK ? NOOK_OK : nook_fail(result, "%s", text);
 }
 
 void nook_file_free(nook_file *file)

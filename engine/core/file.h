@@ -20,6 +20,8 @@ typedef struct nook_file {
  *         than memory. *out_file is untouched on failure.
  */
 nook_result nook_file_read(const char *path, nook_file *out_file);
+/** The same without a line in the log: on failure `out_why` holds it, cut to capacity. */
+nook_result nook_file_try_read(const char *path, nook_file *out_file, char *out_why, size_t capacity);
 void nook_file_free(nook_file *file); /**< NULL and zeroed files are allowed. */
 
 /**

@@ -29,3 +29,12 @@ void nook_log_at(const char *file, int line, nook_log_level level, const char *f
     va_end(arguments);
     log_state.sink(log_state.user, level, file, line, text);
 }
+
+nook_result nook_refuse(char *out, size_t capacity, nook_result code, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(out, capacity, format, arguments);
+    va_end(arguments);
+    return code;
+}

@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/core/result.h"
 #include <stdarg.h>
+#include <stddef.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -41,6 +42,12 @@ static inline nook_result nook_fail_with(nook_result code)
 {
     return code;
 }
+
+/**
+ * For what may fail without a line in the log: writes printf-style text to `out`, cut to capacity.
+ * @return `code`
+ */
+nook_result nook_refuse(char *out, size_t capacity, nook_result code, const char *format, ...) NOOK_PRINTF(4, 5);
 
 #ifdef __cplusplus
 }

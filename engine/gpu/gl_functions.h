@@ -224,12 +224,14 @@ extern "C" {
     /* Shaders and programs */ \
     X(PFNGLCREATESHADERPROC, CreateShader) \
     X(PFNGLDELETESHADERPROC, DeleteShader) \
+    X(PFNGLISSHADERPROC, IsShader) \
     X(PFNGLSHADERSOURCEPROC, ShaderSource) \
     X(PFNGLCOMPILESHADERPROC, CompileShader) \
     X(PFNGLGETSHADERIVPROC, GetShaderiv) \
     X(PFNGLGETSHADERINFOLOGPROC, GetShaderInfoLog) \
     X(PFNGLCREATEPROGRAMPROC, CreateProgram) \
     X(PFNGLDELETEPROGRAMPROC, DeleteProgram) \
+    X(PFNGLISPROGRAMPROC, IsProgram) \
     X(PFNGLATTACHSHADERPROC, AttachShader) \
     X(PFNGLDETACHSHADERPROC, DetachShader) \
     X(PFNGLLINKPROGRAMPROC, LinkProgram) \
@@ -245,6 +247,7 @@ extern "C" {
     X(PFNGLBINDFRAGDATALOCATIONPROC, BindFragDataLocation) \
     X(PFNGLGETATTRIBLOCATIONPROC, GetAttribLocation) \
     X(PFNGLGETUNIFORMLOCATIONPROC, GetUniformLocation) \
+    X(PFNGLGETUNIFORMIVPROC, GetUniformiv) \
     X(PFNGLGETUNIFORMBLOCKINDEXPROC, GetUniformBlockIndex) \
     X(PFNGLUNIFORMBLOCKBINDINGPROC, UniformBlockBinding) \
     X(PFNGLGETACTIVEUNIFORMPROC, GetActiveUniform) \

@@ -165,16 +165,15 @@ static void show_writes(nook_gpu *gpu)
 
 void nook_dispatch(nook_gpu *gpu, nook_program program, uint32_t x, uint32_t y, uint32_t z)
 {
-    assert(program.id != 0);
-    gpu->gl->UseProgram(program.id);
+    nook_program_use(gpu, program);
     gpu->gl->DispatchCompute(x, y, z);
     show_writes(gpu);
 }
 
 void nook_dispatch_indirect(nook_gpu *gpu, nook_program program, nook_buffer groups)
 {
-    assert(program.id != 0 && groups.size >= 3 * sizeof(GLuint));
-    gpu->gl->UseProgram(program.id);
+    assert(groups.size >= 3 * sizeof(GLuint));
+    nook_program_use(gpu, program);
     gpu->gl->BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, groups.id);
     gpu->gl->DispatchComputeIndirect(0);
     gpu->gl->BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);

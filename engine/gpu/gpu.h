@@ -17,6 +17,7 @@
  * - Values too large for an unsigned integer target are clamped, not cut: mask them in the shader.
  */
 #pragma once
+#include "engine/core/param.h"
 #include "engine/core/result.h"
 #include "engine/gpu/gl_functions.h"
 #include <stdbool.h>
@@ -40,9 +41,12 @@ typedef struct nook_buffer {
     size_t size; /**< Bytes. */
 } nook_buffer;
 
-/** A linked program; stays valid until the device is destroyed. id 0 is none. */
+/**
+ * A linked program; stays valid until the device is destroyed, also when its shaders are reloaded: it is not GL's name,
+ * which changes then. handle 0 is none.
+ */
 typedef struct nook_program {
-    uint32_t id;
+    uint32_t handle;
 } nook_program;
 
 /** Where draws go. Borrows its textures: destroy it before them. id 0 is the window's own. */
@@ -57,7 +61,7 @@ typedef struct nook_gpu_timer {
 } nook_gpu_timer;
 
 typedef struct nook_gpu nook_gpu;
-struct nook_gpu_cache; /* engine/gpu/gpu_internal.h: the table of functions, and programs by path and defines */
+struct nook_gpu_cache; /* engine/gpu/gpu_internal.h: the table of functions, and programs by paths and defines */
 
 struct nook_gpu {
     const nook_gl *gl;
@@ -121,18 +125,64 @@ void nook_buffer_update(nook_gpu *gpu, nook_buffer buffer, size_t offset, const 
 void nook_buffer_read(nook_gpu *gpu, nook_buffer buffer, size_t offset, void *out, size_t size);
 
 /**
- * A program from shader files, compiled once per (paths, defines) and then found again.
+ * A program from shader files, compiled once per (paths, defines) and then found again, which allocates nothing.
  *
  * Files may #include "path" relative to source_root or to shaders/, as often as they like; a file with a line
  * `#pragma once` counts once. An #include is obeyed also inside #if. Errors name file and line through includes.
  * A file without #version gets `#version 450 core`. __LINE__ counts lines of the joined text.
  * @param defines   lines put after #version, for example "#define RAYS 8\n"; "" for none. Part of the identity.
  * @return NOOK_E_NOT_FOUND a file; NOOK_E_FORMAT includes go in a circle, too deep or are misspelt; NOOK_E_MEMORY;
- *         NOOK_E_DEVICE it does not compile or link (the driver's lines are in the log). *out_program is untouched then.
+ *         NOOK_E_DEVICE it does not compile or link (the driver's lines are in the log); NOOK_E_VERSION it does not fit
+ *         the code (nook_gpu_expect_params). *out_program is untouched then. A program that failed is built again by
+ *         nook_gpu_reload_shaders, and fails until then without another line in the log.
  */
 nook_result nook_program_compute(nook_gpu *gpu, const char *path, const char *defines, nook_program *out_program);
 nook_result nook_program_raster(nook_gpu *gpu, const char *vertex_path, const char *fragment_path, const char *defines,
                                 nook_program *out_program);
+
+/** The program of draws and of nook_uniform_* from now on; nook_dispatch does the same. */
+void nook_program_use(nook_gpu *gpu, nook_program program);
+/** GL's name of it until the next nook_gpu_reload_shaders. */
+uint32_t nook_program_native(const nook_gpu *gpu, nook_program program);
+
+/**
+ * Sets a uniform of the program in use, `layout(location = ...)` below 32. Set all of them for every use: a reloaded program
+ * starts with zeros. Nothing happens when the shader does not need it (any more).
+ * @param count of its components, 1 to 4
+ */
+void nook_uniform_int(nook_gpu *gpu, uint32_t location, const int32_t *values, uint32_t count);
+void nook_uniform_uint(nook_gpu *gpu, uint32_t location, const uint32_t *values, uint32_t count);
+void nook_uniform_float(nook_gpu *gpu, uint32_t location, const float *values, uint32_t count);
+
+/** What came of a reload. */
+typedef struct nook_shader_report {
+    uint32_t reloaded; /**< Programs that were replaced. */
+    uint32_t
+        failed; /**< Programs of the device that do not build as their files are now; of this reload or an earlier one. */
+    double ms;       /**< That it took. */
+    char text[4096]; /**< Why: lines that name file and line through includes, each once; "" when none has failed. */
+} nook_shader_report;
+
+/**
+ * Builds the programs that are made of changed files anew, includes among them, and those that failed before. Each is
+ * built aside: it takes the old one's place only when it compiles, links and fits the code that uses it, which is so when
+ * uniform and storage blocks, types at locations and bindings, and the local size of a compute shader are as they were
+ * (what only one of the two has may differ). Else the old one stays, and the reason is logged unless it is the same as the last time.
+ * Takes as long as the driver needs; call it between frames.
+ * @param changed paths relative to source_root, of files or of folders that are gone; NULL: all are built anew
+ */
+void nook_gpu_reload_shaders(nook_gpu *gpu, const char *const *changed, size_t count, nook_shader_report *out_report);
+/** What does not build now, without building anything: `reloaded` and `ms` are 0. */
+void nook_gpu_shader_report(const nook_gpu *gpu, nook_shader_report *out_report);
+
+/**
+ * Programs built from now on that include this params.def are refused with NOOK_E_VERSION unless they have a uniform block of just
+ * the rows that the code writes: a saved params.def never meets code that was built with another. Replaces what was expected
+ * of that path before. After code with another table was loaded: expect it, then reload the path.
+ * @param path relative to source_root @param table copied
+ * @return NOOK_E_MEMORY
+ */
+nook_result nook_gpu_expect_params(nook_gpu *gpu, const char *path, const nook_param *table, size_t count);
 
 /** Binds for the next dispatch or draw. `unit` is the binding number in the shader. */
 void nook_bind_texture(nook_gpu *gpu, uint32_t unit, nook_texture texture);

@@ -12,6 +12,8 @@ typedef struct reader {
     const char *root;
     const char *defines;
     nook_shader_source *out;
+    char *why;
+    size_t why_capacity;
 } reader;
 
 /* Where an include stands, for messages; `from` is NULL for the main file. */
@@ -47,7 +49,7 @@ static nook_result append_line(reader *self, const char *bytes, size_t size, uin
 {
     nook_shader_source *out = self->out;
     if (!reserve_line(out, size))
-        return nook_fail(NOOK_E_MEMORY, "%s: out of memory", out->files[file].path);
+        return nook_refuse(self->why, self->why_capacity, NOOK_E_MEMORY, "%s: out of memory", out->files[file].path);
     assert(out->text && out->lines);
     memcpy(out->text + out->size, bytes, size);
     out->size += size;
@@ -138,10 +140,11 @@ static nook_result read_include(reader *self, const char *rest, const char *end,
     char name[PATH_CAPACITY];
     const char *close = rest < end && *rest == '"' ? memchr(rest + 1, '"', (size_t)(end - rest - 1)) : NULL;
     if (!close || close == rest + 1 || (size_t)(close - rest) > sizeof name)
-        return nook_fail(NOOK_E_FORMAT, "%s:%u: #include wants a path in double quotes", at.from, at.line);
+        return nook_refuse(self->why, self->why_capacity, NOOK_E_FORMAT,
+                           "%s:%u: #include wants a path in double quotes", at.from, at.line);
     if (at.depth > DEPTH_LIMIT)
-        return nook_fail(NOOK_E_FORMAT, "%s:%u: #include is nested deeper than %d files", at.from, at.line,
-                         DEPTH_LIMIT);
+        return nook_refuse(self->why, self->why_capacity, NOOK_E_FORMAT,
+                           "%s:%u: #include is nested deeper than %d files", at.from, at.line, DEPTH_LIMIT);
     size_t length = (size_t)(close - rest - 1);
     memcpy(name, rest + 1, length);
     name[length] = '\0';
@@ -202,14 +205,47 @@ static nook_result read_header(reader *self, uint32_t index, const char *text, c
     return result;
 }
 
+static bool is_up(const char *part, size_t length)
+{
+    return length == 2 && part[0] == '.' && part[1] == '.';
+}
+
+/* Takes "." and "name/.." out of a path, so that a file has one name. */
+static void clean_path(char path[PATH_CAPACITY])
+{
+    char clean[PATH_CAPACITY];
+    size_t used = 0, last = 0; /* last: where the last part of what is used starts */
+    for (const char *at = path; *at != '\0';) {
+        size_t length = strcspn(at, "/");
+        if (is_up(at, length) && used > 0 && !is_up(clean + last, used - last)) {
+            used = last > 0 ? last - 1 : 0;
+            for (last = used; last > 0 && clean[last - 1] != '/';)
+                last--;
+        } else if (length > 1 || (length == 1 && at[0] != '.')) {
+            if (used > 0)
+                clean[used++] = '/';
+            last = used;
+            memcpy(clean + used, at, length);
+            used += length;
+        }
+        at += length + (at[length] == '/');
+    }
+    if (used > 0)
+        memcpy(path, clean, used);
+    path[used] = '\0';
+}
+
 /* Finds the file a name means. @return false when there is none */
 static bool resolve(const char *root, const char *name, char relative[PATH_CAPACITY], char full[PATH_CAPACITY])
 {
     static const char *const folders[] = { "", "shaders/" };
     for (size_t i = 0; i < NOOK_COUNT(folders); i++) {
         int length = snprintf(relative, PATH_CAPACITY, "%s%s", folders[i], name);
+        if (length <= 0 || length >= PATH_CAPACITY)
+            continue;
+        clean_path(relative);
         nook_path_join(full, PATH_CAPACITY, root, relative);
-        if (length > 0 && length < PATH_CAPACITY && nook_file_exists(full))
+        if (nook_file_exists(full))
             return true;
     }
     return false;
@@ -221,22 +257,25 @@ static nook_result read_file(reader *self, const char *name, place at)
     uint32_t index = 0;
     nook_file file = { 0 };
     if (!resolve(self->root, name, relative, full))
-        return at.from ? nook_fail(NOOK_E_NOT_FOUND, "%s:%u: #include \"%s\": no such file in %s or its shaders/",
-                                   at.from, at.line, name, self->root)
-                       : nook_fail(NOOK_E_NOT_FOUND, "%s: no such shader in %s or its shaders/", name, self->root);
+        return at.from ? nook_refuse(self->why, self->why_capacity, NOOK_E_NOT_FOUND,
+                                     "%s:%u: #include \"%s\": no such file in %s or its shaders/", at.from, at.line,
+                                     name, self->root)
+                       : nook_refuse(self->why, self->why_capacity, NOOK_E_NOT_FOUND,
+                                     "%s: no such shader in %s or its shaders/", name, self->root);
     if (find_file(self->out, relative, &index) && self->out->files[index].once)
         return NOOK_OK;
     if (find_file(self->out, relative, &index) && self->out->files[index].open)
-        return nook_fail(NOOK_E_FORMAT, "%s:%u: #include \"%s\" goes in a circle: that file is being read", at.from,
-                         at.line, name);
+        return nook_refuse(self->why, self->why_capacity, NOOK_E_FORMAT,
+                           "%s:%u: #include \"%s\" goes in a circle: that file is being read", at.from, at.line, name);
     if (!add_file(self->out, relative, &index))
-        return nook_fail(NOOK_E_MEMORY, "%s: out of memory", relative);
-    nook_result result = nook_file_read(full, &file);
+        return nook_refuse(self->why, self->why_capacity, NOOK_E_MEMORY, "%s: out of memory", relative);
+    nook_result result = nook_file_try_read(full, &file, self->why, self->why_capacity);
     if (result != NOOK_OK)
         return result;
     if (memchr(file.bytes, '\0', file.size)) {
         nook_file_free(&file);
-        return nook_fail(NOOK_E_FORMAT, "%s: not a text file, it holds zero bytes", relative);
+        return nook_refuse(self->why, self->why_capacity, NOOK_E_FORMAT, "%s: not a text file, it holds zero bytes",
+                           relative);
     }
     self->out->files[index].open = true;
     const char *text = (const char *)file.bytes, *text_end = text + file.size;
@@ -250,14 +289,16 @@ static nook_result read_file(reader *self, const char *name, place at)
 }
 
 nook_result nook_shader_source_read(const char *root, const char *path, const char *defines,
-                                    nook_shader_source *out_source)
+                                    nook_shader_source *out_source, char *out_why, size_t capacity)
 {
     nook_shader_source source = { 0 };
     reader self = { .root = root, .defines = defines, .out = &source };
+    self.why = out_why;
+    self.why_capacity = capacity;
     uint32_t defines_index = 0;
     nook_result result = NOOK_OK;
     if (!add_file(&source, "(defines)", &defines_index))
-        result = nook_fail(NOOK_E_MEMORY, "%s: out of memory", path);
+        result = nook_refuse(self.why, self.why_capacity, NOOK_E_MEMORY, "%s: out of memory", path);
     if (result == NOOK_OK)
         result = read_file(&self, path, (place){ NULL, 0, 0 });
     if (result != NOOK_OK) {

@@ -40,10 +40,11 @@ typedef struct nook_shader_source {
 /**
  * Reads a shader and its includes; paths are looked for under `root`, then under root/shaders.
  * @param defines lines put behind #version
+ * @param out_why on failure one line that says why, cut to capacity; nothing is logged
  * @return NOOK_E_NOT_FOUND, NOOK_E_FORMAT, NOOK_E_MEMORY, NOOK_E_IO; *out_source is untouched then
  */
 nook_result nook_shader_source_read(const char *root, const char *path, const char *defines,
-                                    nook_shader_source *out_source);
+                                    nook_shader_source *out_source, char *out_why, size_t capacity);
 void nook_shader_source_free(nook_shader_source *source);
 
 /**

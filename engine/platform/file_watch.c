@@ -314,25 +314,15 @@ size_t nook_file_watch_folder_count(const nook_file_watch *watch)
 
 /* ---- life ---------------------------------------------------------------------------------------------------------- */
 
-static bool copy_bases(nook_file_watch *watch, const nook_file_watch_desc *desc)
-{
-    static const char *const root_itself[] = { "" };
-    const char *const *folders = desc->folders ? desc->folders : root_itself;
-    size_t count = desc->folders ? desc->folder_count : NOOK_COUNT(root_itself);
-    watch->bases = calloc(count + 1, sizeof(char *));
-    for (size_t i = 0; watch->bases && i < count; i++) {
-        watch->bases[i] = copy_path(folders[i]);
-        if (!watch->bases[i])
-            return false;
-        watch->base_count++;
-    }
-    return watch->bases != NULL;
-}
-
-static nook_result watch_base(nook_file_watch *watch, const char *base)
+/* One folder of the description. */
+static nook_result add_base(nook_file_watch *watch, const char *path)
 {
     char full[PATH_CAPACITY];
     struct stat info;
+    char *base = copy_path(path);
+    if (!base)
+        return refuse(path, UV_ENOMEM);
+    watch->bases[watch->base_count++] = base;
     if (!full_path(watch, base, full))
         return nook_fail(NOOK_E_IO, "%s: the path is too long to be watched", base);
     if (stat(full, &info) != 0)
@@ -340,6 +330,21 @@ static nook_result watch_base(nook_file_watch *watch, const char *base)
     if (!S_ISDIR(info.st_mode))
         return refuse(full, UV_ENOTDIR);
     return watch_all_in(watch, base, &info, false);
+}
+
+static nook_result add_bases(nook_file_watch *watch, const nook_file_watch_desc *desc)
+{
+    static const char *const root_itself[] = { "" };
+    const char *const *folders = desc->folders ? desc->folders : root_itself;
+    size_t count = desc->folders ? desc->folder_count : NOOK_COUNT(root_itself);
+    nook_result result = NOOK_OK;
+    watch->root = copy_path(desc->root);
+    watch->bases = calloc(count + 1, sizeof(char *));
+    if (!watch->root || !watch->bases)
+        return refuse(desc->root, UV_ENOMEM);
+    for (size_t i = 0; i < count && result == NOOK_OK; i++)
+        result = add_base(watch, folders[i]);
+    return result;
 }
 
 nook_result nook_file_watch_create(const nook_file_watch_desc *desc, nook_file_watch **out_watch)
@@ -354,12 +359,7 @@ nook_result nook_file_watch_create(const nook_file_watch_desc *desc, nook_file_w
         return refuse(desc->root, code);
     }
     watch->flat = desc->flat;
-    watch->root = copy_path(desc->root);
-    nook_result result = watch->root && copy_bases(watch, desc)
-                             ? NOOK_OK
-                             : nook_fail(NOOK_E_MEMORY, "%s: cannot be watched: out of memory", desc->root);
-    for (size_t i = 0; i < watch->base_count && result == NOOK_OK; i++)
-        result = watch_base(watch, watch->bases[i]);
+    nook_result result = add_bases(watch, desc);
     if (result != NOOK_OK) {
         nook_file_watch_destroy(watch);
         return result;

@@ -86,7 +86,7 @@ void nook_pass_blended(nook_renderer *renderer, const nook_frame *frame, nook_re
                       (raster_state){ .depth_compare = GL_GEQUAL, .cull = true, .blend = true, .part = part });
     nook_bind_geometry(renderer, frame->scene, &renderer->visible);
     nook_bind_texture(renderer->gpu, UNIT_SHADOW, renderer->shadow_map);
-    gl->UseProgram(renderer->blended_program.id);
+    nook_program_use(renderer->gpu, renderer->blended_program);
     const blended_draw *items = renderer->blended.items;
     for (size_t i = 0; i < renderer->blended_count; i++) {
         const blended_draw *item = &items[i];

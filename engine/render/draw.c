@@ -97,7 +97,8 @@ void nook_draw_primitive(nook_renderer *renderer, const nook_render_scene *scene
     const render_primitive *p = &scene->primitives[primitive];
     if (p->index_count == 0)
         return;
-    gl->Uniform3ui(LOCATION_DRAW, p->material, p->first_triangle, p->index_count / 3);
+    const uint32_t draw[3] = { p->material, p->first_triangle, p->index_count / 3 };
+    nook_uniform_uint(renderer->gpu, LOCATION_DRAW, draw, 3);
     gl->DrawElementsInstancedBaseVertexBaseInstance(GL_TRIANGLES, (GLsizei)p->index_count, GL_UNSIGNED_INT,
                                                     (const void *)((uintptr_t)p->first_index * sizeof(uint32_t)),
                                                     (GLsizei)instance_count, (GLint)p->first_vertex, first_instance);
@@ -126,10 +127,10 @@ void nook_draw_solid(nook_renderer *renderer, const nook_render_scene *scene, co
 {
     const batch *batches = set->batches.items;
     nook_bind_geometry(renderer, scene, set);
-    renderer->gpu->gl->UseProgram(opaque.id);
+    nook_program_use(renderer->gpu, opaque);
     for (uint32_t i = 0; i < set->batch_count; i++)
         draw_batch(renderer, scene, &batches[i], NOOK_ALPHA_OPAQUE, cull);
-    renderer->gpu->gl->UseProgram(masked.id);
+    nook_program_use(renderer->gpu, masked);
     for (uint32_t i = 0; i < set->batch_count; i++)
         draw_batch(renderer, scene, &batches[i], NOOK_ALPHA_MASK, cull);
 }
@@ -137,7 +138,7 @@ void nook_draw_solid(nook_renderer *renderer, const nook_render_scene *scene, co
 void nook_draw_fullscreen(nook_renderer *renderer, nook_program program)
 {
     const nook_gl *gl = renderer->gpu->gl;
-    gl->UseProgram(program.id);
+    nook_program_use(renderer->gpu, program);
     gl->BindVertexArray(renderer->empty_vertex_array);
     gl->DrawArrays(GL_TRIANGLES, 0, 3);
 }

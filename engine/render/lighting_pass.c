@@ -27,12 +27,11 @@ void nook_pass_lighting(nook_renderer *renderer, nook_texture visibility, nook_r
 
 void nook_pass_view(nook_renderer *renderer, nook_texture visibility, nook_view view, nook_rectangle part)
 {
-    const nook_gl *gl = renderer->gpu->gl;
     nook_raster_begin(renderer->gpu, renderer->targets.image_target, (raster_state){ .part = part });
     bind_inputs(renderer, visibility);
     nook_bind_texture(renderer->gpu, UNIT_LIGHT, renderer->targets.light);
-    gl->UseProgram(renderer->view_program.id);
-    gl->Uniform1i(LOCATION_DRAW, (GLint)view);
+    nook_program_use(renderer->gpu, renderer->view_program);
+    nook_uniform_int(renderer->gpu, LOCATION_DRAW, &(const int32_t){ (int32_t)view }, 1);
     nook_draw_fullscreen(renderer, renderer->view_program);
     nook_raster_end(renderer->gpu);
 }

@@ -2,6 +2,7 @@
 #include "modules/ao/ao_internal.h"
 #include "modules/ao/frame_block_internal.h"
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -121,6 +122,14 @@ static nook_result check_name(const nook_ao *ao, const char *name)
     return NOOK_OK;
 }
 
+/** A shader that was read after its params.def has changed must not meet the struct of before. */
+static nook_result expect_params(nook_ao *ao, const nook_ao_technique *technique)
+{
+    char path[128];
+    snprintf(path, sizeof path, "modules/ao_%s/params.def", technique->name);
+    return nook_gpu_expect_params(ao->gpu, path, technique->params, technique->param_count);
+}
+
 nook_result nook_ao_add_technique(nook_ao *ao, const struct nook_ao_technique *technique)
 {
     if (technique->version != NOOK_AO_TECHNIQUE_VERSION)
@@ -139,6 +148,8 @@ nook_result nook_ao_add_technique(nook_ao *ao, const struct nook_ao_technique *t
         nook_param_reset(technique->params, technique->param_count, slot.params);
         result = nook_buffer_create(ao->gpu, slot.params, block_size(technique->params_size), &slot.buffer);
     }
+    if (result == NOOK_OK)
+        result = expect_params(ao, technique);
     if (result == NOOK_OK && technique->create)
         result = technique->create(slot.state, ao->gpu);
     if (result != NOOK_OK) {

@@ -34,9 +34,10 @@ nook_result nook_ao_pass_dispatch_parts(const nook_ao_pass *pass, const char *sh
     if (result != NOOK_OK)
         return result;
     int32_t items = NOOK_AO_TURNS_PER_DISPATCH / turns_per_item;
+    nook_program_use(pass->gpu, program);
     for (int32_t first = 0; first < count; first += items) {
-        const GLint part[2] = { first, count - first < items ? count : first + items };
-        pass->gpu->gl->ProgramUniform2iv(program.id, LOCATION_PART, 1, part);
+        const int32_t part[2] = { first, count - first < items ? count : first + items };
+        nook_uniform_int(pass->gpu, LOCATION_PART, part, 2);
         dispatch(pass, program, local_x, local_y);
     }
     return NOOK_OK;

@@ -48,9 +48,9 @@ static void dispatch_parts(const nook_ao_pass *pass, const volume_work *work, co
     for (uint32_t i = 0; i < ray_parts * occluder_parts; i++) {
         uint32_t ray = cut->rays * (work->multiply ? i % ray_parts : i / occluder_parts);
         uint32_t occluder = cut->occluders * (work->multiply ? i / ray_parts : i % occluder_parts);
-        const GLint part[4] = { (GLint)ray, (GLint)at_most(work->rays, ray + cut->rays), (GLint)occluder,
-                                (GLint)at_most(work->occluders, occluder + cut->occluders) };
-        pass->gpu->gl->ProgramUniform4iv(program.id, LOCATION_PART, 1, part);
+        const int32_t part[4] = { (int32_t)ray, (int32_t)at_most(work->rays, ray + cut->rays), (int32_t)occluder,
+                                  (int32_t)at_most(work->occluders, occluder + cut->occluders) };
+        nook_uniform_int(pass->gpu, LOCATION_PART, part, 4);
         if (groups)
             nook_dispatch_indirect(pass->gpu, program, *groups);
         else
@@ -91,7 +91,8 @@ static nook_result trace(volume_state *s, const nook_ao_pass *pass, const volume
     nook_bind_storage(pass->gpu, BINDING_AGAIN, s->again);
     nook_bind_texture(pass->gpu, BINDING_DIRECTIONS, s->directions.texture);
     nook_bind_image(pass->gpu, BINDING_VISIBILITY, pass->visibility, GL_READ_WRITE);
-    pass->gpu->gl->ProgramUniform1i(program.id, LOCATION_OCCLUDERS, (GLint)work->occluders);
+    nook_program_use(pass->gpu, program);
+    nook_uniform_int(pass->gpu, LOCATION_OCCLUDERS, &(const int32_t){ (int32_t)work->occluders }, 1);
     dispatch_parts(pass, work, &likely, program, NULL);
     if (!likely.sure)
         dispatch_parts(pass, work, &careful, program, &s->again);

@@ -36,8 +36,9 @@ static void destroy_targets(nook_gpu *gpu, targets *self)
 /* A triangle over the left half of the target, x in [-1, 0], at one depth. */
 static void draw_half(nook_gpu *gpu, nook_program program, float depth, uint32_t id)
 {
-    gpu->gl->ProgramUniform1f(program.id, 0, depth);
-    gpu->gl->ProgramUniform1ui(program.id, 1, id);
+    nook_program_use(gpu, program);
+    nook_uniform_float(gpu, 0, &depth, 1);
+    nook_uniform_uint(gpu, 1, &id, 1);
     gpu->gl->DrawArrays(GL_TRIANGLES, 0, 6);
 }
 
@@ -71,7 +72,7 @@ static void test_draws_fill_several_targets_and_the_nearest_stays(void **state)
     gl->ClearNamedFramebufferfv(target.framebuffer.id, GL_COLOR, 0, black);
     gl->ClearNamedFramebufferuiv(target.framebuffer.id, GL_COLOR, 1, none);
     gl->ClearNamedFramebufferfv(target.framebuffer.id, GL_DEPTH, 0, &far_depth);
-    gl->UseProgram(program.id);
+    nook_program_use(gpu, program);
     for (size_t i = 0; i < NOOK_COUNT(draws); i++)
         draw_half(gpu, program, draws[i].depth, draws[i].id);
     nook_texture_read(gpu, target.colour, GL_RGBA, GL_UNSIGNED_BYTE, colour, sizeof colour);

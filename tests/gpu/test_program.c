@@ -71,9 +71,9 @@ static nook_result compute(fixture *self, const char *path, const char *defines,
 /* It must fail with this code, leave the output alone and say this. */
 static void assert_fails(fixture *self, const char *path, const char *defines, nook_result code, const char *message)
 {
-    nook_program program = { .id = 4711 };
+    nook_program program = { .handle = 4711 };
     assert_int_equal(compute(self, path, defines, &program), code);
-    assert_int_equal(program.id, 4711);
+    assert_int_equal(program.handle, 4711);
     if (!strstr(self->log, message))
         fail_msg("expected '%s' in the log:\n%s", message, self->log);
 }
@@ -181,10 +181,11 @@ static void test_misspelt_includes_are_refused(void **state)
     static const char *const wrong[] = { "#include <a.glsl>\n", "#include \"a.glsl\n", "#include \"\"\n",
                                          "#include\n" };
     for (size_t i = 0; i < NOOK_COUNT(wrong); i++) {
-        self->log[0] = '\0';
-        put(self, "main.comp.glsl", wrong[i]);
-        assert_fails(self, "main.comp.glsl", "", NOOK_E_FORMAT,
-                     "main.comp.glsl:1: #include wants a path in double quotes");
+        char name[32], message[96];
+        snprintf(name, sizeof name, "wrong%zu.comp.glsl", i);
+        snprintf(message, sizeof message, "%s:1: #include wants a path in double quotes", name);
+        put(self, name, wrong[i]);
+        assert_fails(self, name, "", NOOK_E_FORMAT, message);
     }
 }
 
@@ -269,33 +270,39 @@ static void test_program_is_built_once_for_its_paths_and_defines(void **state)
     assert_int_equal(compute(self, "main.comp.glsl", "#define VALUE 1u\n", &first), NOOK_OK);
     put(self, "main.comp.glsl", "this is not a shader any more");
     assert_int_equal(compute(self, "main.comp.glsl", "#define VALUE 1u\n", &again), NOOK_OK);
-    assert_int_equal(first.id, again.id);
+    assert_int_equal(first.handle, again.handle);
     put(self, "main.comp.glsl", COMPUTE OUTPUT "void main() { values[0] = VALUE; }\n");
     assert_int_equal(compute(self, "main.comp.glsl", "#define VALUE 2u\n", &other), NOOK_OK);
-    assert_int_not_equal(first.id, other.id);
+    assert_int_not_equal(first.handle, other.handle);
     run(self, "main.comp.glsl", "#define VALUE 2u\n", values);
     assert_int_equal(values[0], 2);
 }
 
-static void test_program_that_failed_is_tried_again(void **state)
+static void test_program_that_failed_fails_quietly_until_shaders_are_reloaded(void **state)
 {
     fixture *self = *state;
     nook_program program = { 0 };
+    nook_shader_report report;
     put(self, "main.comp.glsl", COMPUTE "void main() { no_such_name = 1; }\n");
     assert_fails(self, "main.comp.glsl", "", NOOK_E_DEVICE, "main.comp.glsl:2: error: ");
+    int lines = self->lines;
     put(self, "main.comp.glsl", COMPUTE "void main() { }\n");
+    assert_int_equal(compute(self, "main.comp.glsl", "", &program), NOOK_E_DEVICE);
+    assert_int_equal(self->lines, lines);
+    nook_gpu_reload_shaders(self->test.gpu, NULL, 0, &report);
+    assert_int_equal(report.reloaded, 1);
     assert_int_equal(compute(self, "main.comp.glsl", "", &program), NOOK_OK);
 }
 
 static void test_shaders_that_do_not_fit_together_are_named(void **state)
 {
     fixture *self = *state;
-    nook_program program = { .id = 4711 };
+    nook_program program = { .handle = 4711 };
     put(self, "draw.vert.glsl", "out vec2 uv;\nvoid main() { uv = vec2(0); gl_Position = vec4(0); }\n");
     put(self, "draw.frag.glsl", "in vec4 uv;\nout vec4 colour;\nvoid main() { colour = uv; }\n");
     assert_int_equal(nook_program_raster(self->test.gpu, "draw.vert.glsl", "draw.frag.glsl", "", &program),
                      NOOK_E_DEVICE);
-    assert_int_equal(program.id, 4711);
+    assert_int_equal(program.handle, 4711);
     assert_non_null(strstr(self->log, "draw.frag.glsl: "));
     assert_non_null(strstr(self->log, "uv"));
 }
@@ -321,7 +328,7 @@ int main(void)
         TEST(test_lines_may_end_as_on_windows_and_the_last_not_at_all),
         TEST(test_version_is_450_unless_the_file_says_otherwise),
         TEST(test_program_is_built_once_for_its_paths_and_defines),
-        TEST(test_program_that_failed_is_tried_again),
+        TEST(test_program_that_failed_fails_quietly_until_shaders_are_reloaded),
         TEST(test_shaders_that_do_not_fit_together_are_named),
     };
     return cmocka_run_group_tests_name("programs", tests, NULL, NULL);
