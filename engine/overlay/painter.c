@@ -77,6 +77,7 @@ static nook_result make_room(nook_gpu *gpu, nook_buffer *buffer, size_t size)
 static void set_state(const overlay_painter *painter, nook_program program)
 {
     const nook_gl *gl = painter->gpu->gl;
+    const float size[2] = { (float)painter->target.width, (float)painter->target.height };
     nook_framebuffer_bind(painter->gpu, painter->target);
     gl->Disable(GL_DEPTH_TEST);
     gl->Disable(GL_CULL_FACE);
@@ -85,8 +86,8 @@ static void set_state(const overlay_painter *painter, nook_program program)
     gl->Enable(GL_SCISSOR_TEST);
     gl->Enable(GL_BLEND);
     gl->BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    gl->UseProgram(program.id);
-    gl->Uniform2f(LOCATION_SIZE, (GLfloat)painter->target.width, (GLfloat)painter->target.height);
+    nook_program_use(painter->gpu, program);
+    nook_uniform_float(painter->gpu, LOCATION_SIZE, size, 2);
     gl->VertexArrayVertexBuffer(painter->vertex_array, STREAM, painter->vertices.id, 0, sizeof(overlay_vertex));
     gl->VertexArrayElementBuffer(painter->vertex_array, painter->indices.id);
     gl->BindVertexArray(painter->vertex_array);

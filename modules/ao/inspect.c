@@ -31,7 +31,8 @@ static void dispatch_count(nook_ao *ao, const nook_ao_pass *pass, nook_program p
     nook_bind_texture(ao->gpu, 0, pass->depth);
     nook_bind_storage(ao->gpu, 3, pass->occluders);
     nook_bind_image(ao->gpu, 0, counts, GL_WRITE_ONLY);
-    ao->gpu->gl->ProgramUniform1i(program.id, LOCATION_COUNT, (GLint)pass->occluder_count);
+    nook_program_use(ao->gpu, program);
+    nook_uniform_int(ao->gpu, LOCATION_COUNT, &(const int32_t){ (int32_t)pass->occluder_count }, 1);
     nook_ao_pass_groups(pass, TILE_SIZE, TILE_SIZE, groups);
     nook_dispatch(ao->gpu, program, groups[0], groups[1], 1);
 }
