@@ -73,6 +73,8 @@ void nook_overlay_text_wrapped(nook_overlay *overlay, double width, const char *
 void nook_overlay_text_coloured(nook_overlay *overlay, nook_overlay_colour colour, const char *text);
 void nook_overlay_separator(nook_overlay *overlay);
 void nook_overlay_same_line(nook_overlay *overlay); /**< The next widget stands beside the last one. */
+/** The same, so many letters' heights from the panel's left: for columns. */
+void nook_overlay_same_line_at(nook_overlay *overlay, double letters);
 /** A heading that folds what is below it. @return false: leave that out */
 bool nook_overlay_section(nook_overlay *overlay, const char *label, bool open_at_first);
 /** Text beside the mouse while it is over the last widget. */

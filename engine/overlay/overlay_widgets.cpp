@@ -83,6 +83,12 @@ void nook_overlay_same_line(nook_overlay *overlay)
     ImGui::SameLine();
 }
 
+void nook_overlay_same_line_at(nook_overlay *overlay, double letters)
+{
+    (void)overlay;
+    ImGui::SameLine((float)letters * ImGui::GetFontSize());
+}
+
 bool nook_overlay_section(nook_overlay *overlay, const char *label, bool open_at_first)
 {
     (void)overlay;

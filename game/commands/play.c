@@ -2,6 +2,7 @@
 #include "engine/core/log.h"
 #include "game/commands/commands.h"
 #include "game/option_rows.h"
+#include "game/play/play_window.h"
 
 static bool read_seed(void *target, const char *text)
 {
@@ -32,11 +33,16 @@ static const char details[] =
 typedef struct play_request {
     nook_play_desc desc;
     bool headless;
+    const char *settings, *cache;
+    nook_option_size size;
+    nook_backend backend;
+    char default_cache[NOOK_OPTION_PATH_MAX];
 } play_request;
 
 static bool read_request(const nook_app *app, int argc, char **argv, play_request *out, int *out_exit_code)
 {
-    *out = (play_request){ .desc = { .root = app->root } };
+    *out = (play_request){ .desc = { .root = app->root }, .size = { 1280, 720 }, .backend = NOOK_BACKEND_AUTO };
+    out->cache = nook_option_default_cache(app, out->default_cache);
     const nook_option options[] = {
         { .name = "headless",
           .kind = NOOK_OPTION_FLAG,
@@ -52,6 +58,11 @@ static bool read_request(const nook_app *app, int argc, char **argv, play_reques
         make_path("record", &out->desc.record, "write what is pressed, tick by tick"),
         make_path("replay", &out->desc.replay, "play what was recorded; then the player goes on"),
         make_path("pilot", &out->desc.pilot, "play by a script of steps"),
+        nook_option_row_settings(&out->settings,
+                                 "technique and parameters, as ./nook tune writes them; default: the level's"),
+        nook_option_row_size(&out->size, "of the window in pixels; default 1280x720"),
+        nook_option_row_backend(&out->backend),
+        nook_option_row_cache(&out->cache, "baked volumes and the player's preferences; default: cache/ of Nook"),
     };
     const nook_usage usage = { .command = "play",
                                .summary = "Plays a level: first person, rigid bodies, weight and shadow.",
@@ -81,15 +92,34 @@ static int play_headless(const nook_play_desc *desc)
     return result == NOOK_OK && closed == NOOK_OK && orderly ? NOOK_EXIT_OK : NOOK_EXIT_FAILED;
 }
 
+static int play_in_window(const nook_app *app, const play_request *request)
+{
+    const nook_play_window_desc desc = { .play = request->desc,
+                                         .backend = request->backend,
+                                         .width = (uint32_t)request->size.width,
+                                         .height = (uint32_t)request->size.height,
+                                         .settings = request->settings,
+                                         .cache = request->cache };
+    nook_play_window window;
+    bool goes_on = true;
+    nook_result result = nook_play_window_open(app->root, &desc, &window);
+    if (result != NOOK_OK)
+        return NOOK_EXIT_FAILED;
+    if (!window.has_window && nook_play_is_free(&window.play)) {
+        nook_fail(NOOK_E_DEVICE, "play: there is no display; give --headless with --replay or --pilot");
+        result = NOOK_E_DEVICE;
+    }
+    while (result == NOOK_OK && goes_on)
+        result = nook_play_window_frame(&window, &goes_on);
+    nook_result closed = nook_play_window_close(&window);
+    return result == NOOK_OK && closed == NOOK_OK ? NOOK_EXIT_OK : NOOK_EXIT_FAILED;
+}
+
 int nook_command_play(const nook_app *app, int argc, char **argv)
 {
     play_request request;
     int exit_code;
     if (!read_request(app, argc, argv, &request, &exit_code))
         return exit_code;
-    if (!request.headless) {
-        nook_fail(NOOK_E_ARG, "play: give --headless; the window is not there yet");
-        return NOOK_EXIT_USAGE;
-    }
-    return play_headless(&request.desc);
+    return request.headless ? play_headless(&request.desc) : play_in_window(app, &request);
 }

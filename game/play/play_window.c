@@ -1,0 +1,248 @@
+#include "game/play/play_window.h"
+#include "engine/core/clock.h"
+#include "engine/core/file.h"
+#include "engine/core/log.h"
+#include "game/exposure.h"
+#include "game/play/play_panels.h"
+#include "game/techniques.h"
+#include "game/volumes.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static const double degree = 3.14159265358979323846 / 180.0;
+
+/* ---- Opening and closing ----------------------------------------------------------------------------------------- */
+
+/* What draws the light's shadow: the command line's, else the level's, else volume as it comes. */
+static nook_result read_settings(nook_play_window *w, const char *given)
+{
+    const char *path = given ? given : w->play.level->settings;
+    w->settings = (nook_settings_file){ .setting = nook_setting_initial(nook_technique_find("volume")) };
+    snprintf(w->settings_path, sizeof w->settings_path, "%s", path);
+    return *path ? nook_settings_file_read(path, &w->settings) : NOOK_OK;
+}
+
+static uint32_t picture_size(const nook_play_window *w, uint32_t pixels)
+{
+    uint32_t size = pixels >> w->preferences.picture_scale;
+    return size > 0 ? size : 1;
+}
+
+static nook_result open_stage(nook_play_window *w, const char *root, const nook_play_window_desc *desc)
+{
+    const nook_stage_desc stage = { .root = root,
+                                    .scene_path = w->play.level->path,
+                                    .scene = nook_play_take_scene(&w->play),
+                                    .backend = desc->backend,
+                                    .want_window = true,
+                                    .width = desc->width,
+                                    .height = desc->height };
+    nook_result result = nook_stage_open(&stage, &w->stage);
+    if (result != NOOK_OK)
+        return result;
+    w->has_window = w->stage.shows;
+    w->width = desc->width;
+    w->height = desc->height;
+    return nook_overlay_create(w->stage.gpu, &w->overlay);
+}
+
+static nook_result fill_stage(nook_play_window *w, const char *cache)
+{
+    double r_max = w->settings.r_max > 0.0 ? w->settings.r_max : nook_volumes_default_r_max(w->stage.scene);
+    const nook_game_world_desc world = { w->settings.setting.resolution, r_max, cache };
+    nook_result result = nook_setting_apply(w->stage.ao, &w->settings.setting);
+    if (result == NOOK_OK)
+        result = nook_ao_set_param(w->stage.ao, "ao.r_max", r_max);
+    if (result == NOOK_OK && w->settings.falloff[0])
+        result = nook_ao_parse_param(w->stage.ao, "ao.falloff", w->settings.falloff);
+    return result == NOOK_OK ? nook_stage_fill(&w->stage, &world) : result;
+}
+
+static nook_camera camera_of(const nook_play_window *w, double alpha)
+{
+    return nook_session_camera(w->play.session, alpha, (double)w->preferences.field_of_view * degree);
+}
+
+static nook_result begin(nook_play_window *w, const char *cache)
+{
+    nook_result result = fill_stage(w, cache);
+    if (result == NOOK_OK)
+        result = nook_play_begin(&w->play, w->stage.scene, w->stage.world);
+    if (result != NOOK_OK)
+        return result;
+    nook_session_place(w->play.session, 1.0);
+    nook_camera camera = camera_of(w, 1.0);
+    result = nook_stage_expose(&w->stage, &camera);
+    if (w->has_window) {
+        nook_context_show(w->stage.context);
+        nook_context_set_fullscreen(w->stage.context, w->preferences.full_screen);
+    }
+    w->clock_ms = nook_clock_ms();
+    return result;
+}
+
+nook_result nook_play_window_open(const char *root, const nook_play_window_desc *desc, nook_play_window *out_window)
+{
+    nook_play_window *w = out_window;
+    memset(w, 0, sizeof *w);
+    w->frame_seconds = desc->frame_seconds;
+    nook_path_join(w->preferences_path, sizeof w->preferences_path, desc->cache, "preferences.txt");
+    nook_preferences_read(w->preferences_path, &w->preferences);
+    w->kept = w->preferences;
+    nook_result result = nook_play_open(&desc->play, &w->play);
+    if (result == NOOK_OK)
+        result = read_settings(w, desc->settings);
+    if (result == NOOK_OK)
+        result = open_stage(w, root, desc);
+    if (result == NOOK_OK)
+        result = begin(w, desc->cache);
+    if (result != NOOK_OK) {
+        w->play.record_path[0] = '\0'; /* nothing was played */
+        nook_play_window_close(w);
+    }
+    return result;
+}
+
+nook_result nook_play_window_close(nook_play_window *w)
+{
+    nook_result result = nook_play_close(&w->play); /* before the world that it stands in */
+    if (memcmp(&w->preferences, &w->kept, sizeof w->kept) != 0) {
+        nook_result written = nook_preferences_write(w->preferences_path, &w->preferences);
+        result = result == NOOK_OK ? written : result;
+    }
+    nook_overlay_destroy(w->overlay);
+    nook_stage_close(&w->stage);
+    memset(w, 0, sizeof *w);
+    return result;
+}
+
+/* ---- Input ------------------------------------------------------------------------------------------------------- */
+
+/* Keys that are the window's own. */
+static void read_keys(nook_play_window *w, const nook_input *input)
+{
+    bool was_full = w->preferences.full_screen != 0;
+    if (input->close_requested)
+        w->quit = true;
+    if (input->pressed[NOOK_KEY_ESCAPE] || input->pad.pressed[NOOK_PAD_START] || (w->captured && !input->focused))
+        w->paused = !w->paused;
+    if (input->pressed[NOOK_KEY_F1])
+        w->help = !w->help;
+    if (input->pressed[NOOK_KEY_F11])
+        w->preferences.full_screen = !was_full;
+    if ((w->preferences.full_screen != 0) != was_full)
+        nook_context_set_fullscreen(w->stage.context, !was_full);
+}
+
+/* The mouse looks around while one plays, and is a pointer otherwise. */
+static void capture_mouse(nook_play_window *w, const nook_input *input)
+{
+    bool wanted = !w->paused && input->focused;
+    if (wanted != w->captured)
+        nook_context_capture_mouse(w->stage.context, wanted);
+    w->captured = wanted;
+}
+
+/* ---- Time -------------------------------------------------------------------------------------------------------- */
+
+/* Seconds since the last frame; long ones are cut, so that what follows a halt is no fit of ticks. */
+static double take_time(nook_play_window *w)
+{
+    double now = nook_clock_ms(), ms = now - w->clock_ms;
+    w->clock_ms = now;
+    nook_frame_pacing_add(&w->pacing, ms);
+    return w->frame_seconds > 0.0 ? w->frame_seconds : ms / 1000.0;
+}
+
+static nook_result run_ticks(nook_play_window *w, double seconds)
+{
+    const double step = NOOK_PHYSICS_STEP;
+    w->left = fmin(w->left + seconds, NOOK_PLAY_TICKS_PER_FRAME * step);
+    nook_result result = NOOK_OK;
+    while (w->left >= step && result == NOOK_OK) {
+        nook_play_input input = nook_controls_take(&w->controls);
+        if (w->restart)
+            input.buttons |= NOOK_PLAY_RESTART;
+        w->restart = false;
+        result = nook_play_tick(&w->play, &input);
+        w->left -= step;
+    }
+    return result;
+}
+
+/* ---- Picture ----------------------------------------------------------------------------------------------------- */
+
+static nook_result draw_scene(nook_play_window *w)
+{
+    double alpha = w->left / NOOK_PHYSICS_STEP;
+    nook_session_place(w->play.session, alpha);
+    nook_camera camera = camera_of(w, alpha);
+    nook_result result = nook_stage_begin(&w->stage, &camera);
+    if (result == NOOK_OK)
+        result = nook_stage_occlude(&w->stage);
+    return result == NOOK_OK ? nook_stage_finish(&w->stage, true, NOOK_VIEW_LIT) : result;
+}
+
+static void draw_panels(nook_play_window *w, const nook_input *input, double seconds)
+{
+    const nook_overlay_frame frame = { .width = w->width,
+                                       .height = w->height,
+                                       .scale = input->content_scale,
+                                       .seconds = fmax(seconds, 1e-4),
+                                       .input = w->captured ? NULL : input };
+    nook_overlay_begin(w->overlay, &frame);
+    nook_play_draw_hud(w);
+    if (w->paused)
+        nook_play_draw_menu(w);
+    if (w->help)
+        nook_play_draw_help(w);
+    nook_overlay_end(w->overlay);
+}
+
+static nook_result present(nook_play_window *w)
+{
+    const nook_framebuffer screen = { 0, w->width, w->height };
+    nook_renderer_present(w->stage.renderer, w->width, w->height);
+    nook_result result = nook_overlay_draw(w->overlay, screen);
+    nook_context_present(w->stage.context);
+    return result;
+}
+
+static nook_result fit_picture(nook_play_window *w)
+{
+    uint32_t width = picture_size(w, w->width), height = picture_size(w, w->height);
+    if (width == w->stage.width && height == w->stage.height)
+        return NOOK_OK;
+    return nook_stage_set_size(&w->stage, width, height);
+}
+
+nook_result nook_play_window_frame(nook_play_window *w, bool *out_goes_on)
+{
+    nook_input input;
+    nook_context_poll(w->stage.context, &input);
+    double seconds = take_time(w);
+    if (w->has_window) {
+        read_keys(w, &input);
+        capture_mouse(w, &input);
+        if (w->captured)
+            nook_controls_add(&w->controls, &input, &w->preferences, seconds);
+    }
+    bool hidden = w->has_window && (input.width == 0 || input.height == 0);
+    if (w->has_window && !hidden) {
+        w->width = input.width;
+        w->height = input.height;
+    }
+    nook_result result = w->paused && !w->restart ? NOOK_OK : run_ticks(w, seconds);
+    if (result == NOOK_OK && !hidden) {
+        result = fit_picture(w);
+        if (result == NOOK_OK)
+            result = draw_scene(w);
+        draw_panels(w, &input, seconds);
+        if (result == NOOK_OK)
+            result = present(w);
+        w->stage.frame_index++;
+    }
+    *out_goes_on = result == NOOK_OK && !w->quit && (w->has_window || !nook_play_is_free(&w->play));
+    return result;
+}

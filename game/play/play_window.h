@@ -1,0 +1,64 @@
+/**
+ * play_window.h - a game in a window: what happens between two pictures.
+ *
+ *   open -> frame, frame, ... until it does not go on -> close
+ *
+ * Time       a frame makes as many ticks as wall time asks for, at most five: a slow machine plays slower, never coarser. With
+ *            frame_seconds it is that long whatever the clock says, and the same inputs give the same pictures.
+ * Pause      Esc, or another program gets the keyboard: no ticks. The mouse is free then, and while panels are open.
+ * Ownership  everything that lives is in one struct, so that it outlives the code that works on it.
+ */
+#pragma once
+#include "engine/overlay/overlay.h"
+#include "game/play/controls.h"
+#include "game/play/play.h"
+#include "game/settings/settings_file.h"
+#include "game/stage.h"
+
+enum { NOOK_PLAY_HISTORY = 128, NOOK_PLAY_TICKS_PER_FRAME = 5 };
+
+typedef struct nook_play_window_desc {
+    nook_play_desc play;
+    nook_backend backend;
+    uint32_t width, height; /**< Of the window, pixels. */
+    const char *settings;   /**< Technique and parameters; NULL: the level's. */
+    const char *cache;      /**< Baked volumes, and the player's preferences. */
+    double frame_seconds;   /**< > 0: every frame takes this long. 0: what the clock says. */
+} nook_play_window_desc;
+
+/** How long frames took, newest at (next - 1). */
+typedef struct nook_frame_pacing {
+    float ms[NOOK_PLAY_HISTORY];
+    uint32_t count, next;
+} nook_frame_pacing;
+
+/** Members are for reading; zeroed is closed. */
+typedef struct nook_play_window {
+    nook_play play;
+    nook_stage stage;
+    nook_overlay *overlay;
+    nook_settings_file settings;
+    nook_controls controls;
+    nook_preferences preferences, kept; /**< Now, and as they are on disk. */
+    char preferences_path[1024];
+    char settings_path[1024]; /**< "": as it comes. */
+    double frame_seconds;
+    double clock_ms, left; /**< At the last frame; seconds that no tick has used yet. */
+    nook_frame_pacing pacing;
+    bool has_window, paused, help, captured;
+    bool quit;              /**< Asked for in the menu or by the window. */
+    bool restart;           /**< Asked for in the menu: goes into the next tick. */
+    uint32_t width, height; /**< Of the window, or of the picture where there is none. */
+} nook_play_window;
+
+/** @return why not, logged in one line; *out_window is closed then. It must stay where it was opened. */
+nook_result nook_play_window_open(const char *root, const nook_play_window_desc *desc, nook_play_window *out_window);
+/** One picture. @param out_goes_on false: the player wants out, or nothing drives a game without a window any more */
+nook_result nook_play_window_frame(nook_play_window *window, bool *out_goes_on);
+/** Writes recording and preferences, frees everything. @return NOOK_E_IO, NOOK_E_MEMORY: not written; closed it is */
+nook_result nook_play_window_close(nook_play_window *window);
+
+/** Adds a frame. */
+void nook_frame_pacing_add(nook_frame_pacing *pacing, double ms);
+/** Of the frames it knows: a part of them was at most as long. @param part [0, 1] @return 0 when there are none */
+double nook_frame_pacing_quantile(const nook_frame_pacing *pacing, double part);
