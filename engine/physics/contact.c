@@ -8,7 +8,7 @@ enum { FOUND_MAX = 512 }; /* contacts of one pair of shapes before they are merg
 
 /* ---- pairs ---- */
 
-static bool may_touch(const physics_body *a, const physics_body *b)
+bool nook_physics_may_touch(const physics_body *a, const physics_body *b)
 {
     if (a == b || (a->motion != NOOK_BODY_DYNAMIC && b->motion != NOOK_BODY_DYNAMIC))
         return false;
@@ -83,7 +83,7 @@ static void enqueue(nook_physics *p, physics_body *body)
 static void near_moving(void *user, dGeomID g1, dGeomID g2)
 {
     physics_body *a = dGeomGetData(g1), *b = dGeomGetData(g2);
-    if ((a->activity != PHYSICS_MOVES && b->activity != PHYSICS_MOVES) || !may_touch(a, b))
+    if ((a->activity != PHYSICS_MOVES && b->activity != PHYSICS_MOVES) || !nook_physics_may_touch(a, b))
         return;
     if (collide_pair(user, g1, g2)) {
         enqueue(user, a);
@@ -98,7 +98,7 @@ static void near_woken(void *user, dGeomID g1, dGeomID g2)
     const physics_body *other = a->activity == PHYSICS_WOKEN ? b : a;
     if (a->activity == PHYSICS_WOKEN && b->activity == PHYSICS_WOKEN)
         return;
-    if (other->activity == PHYSICS_MOVES || !may_touch(a, b))
+    if (other->activity == PHYSICS_MOVES || !nook_physics_may_touch(a, b))
         return;
     if (collide_pair(user, g1, g2)) {
         enqueue(user, a);
@@ -108,7 +108,7 @@ static void near_woken(void *user, dGeomID g1, dGeomID g2)
 
 static void near_fixed(void *user, dGeomID g1, dGeomID g2)
 {
-    if (may_touch(dGeomGetData(g1), dGeomGetData(g2)))
+    if (nook_physics_may_touch(dGeomGetData(g1), dGeomGetData(g2)))
         collide_pair(user, g1, g2);
 }
 

@@ -106,6 +106,8 @@ void nook_physics_read_pose(physics_body *body);
 
 /* ---- contact.c ---- */
 
+/* Whether contacts are looked for between two bodies: one is dynamic, and they do not ignore each other. */
+bool nook_physics_may_touch(const physics_body *a, const physics_body *b);
 /* Finds what touches, wakes what is touched, and makes ODE's joints. */
 void nook_physics_collide(nook_physics *physics);
 /* Reads the forces of the joints and removes them. */

@@ -113,8 +113,8 @@ bool nook_physics_ground(const nook_physics *physics, nook_body body, double out
 
 typedef struct nook_ray_hit {
     nook_body body;
-    double distance; /**< Metres. */
-    double normal[3];
+    double distance;  /**< Metres. */
+    double normal[3]; /**< Of the surface, on the side from which the ray comes. */
 } nook_ray_hit;
 /**
  * The nearest body along a ray.

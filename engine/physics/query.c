@@ -1,6 +1,5 @@
 #include "engine/core/vector.h"
 #include "engine/physics/internal.h"
-#include <string.h>
 
 /* ---- of the last step ---- */
 
@@ -36,6 +35,7 @@ bool nook_physics_ground(const nook_physics *physics, nook_body body, double out
 
 typedef struct ray_query {
     const nook_body *ignored;
+    const double *direction;
     nook_ray_hit nearest;
     bool hit;
 } ray_query;
@@ -54,13 +54,15 @@ static void near_ray(void *user, dGeomID g1, dGeomID g2)
         return;
     query->hit = true;
     query->nearest = (nook_ray_hit){ .body = { body->id }, .distance = found.depth };
-    memcpy(query->nearest.normal, found.normal, sizeof query->nearest.normal);
+    double side = nook_vector_dot(found.normal, query->direction) > 0.0 ? -1.0 : 1.0; /* a mesh from behind */
+    for (int i = 0; i < 3; i++)
+        query->nearest.normal[i] = side * found.normal[i];
 }
 
 bool nook_physics_ray(nook_physics *physics, const double origin[3], const double direction[3], double length,
                       const nook_body ignored[2], nook_ray_hit *out_hit)
 {
-    ray_query query = { .ignored = ignored };
+    ray_query query = { .ignored = ignored, .direction = direction };
     dGeomRaySetLength(physics->ray, length);
     dGeomRaySet(physics->ray, origin[0], origin[1], origin[2], direction[0], direction[1], direction[2]);
     nook_physics_lock();

@@ -43,14 +43,15 @@ static int pieces_needed(const nook_physics *p)
 
 /* ---- a piece ---- */
 
-/* What rolls is slowed down as by a force of rolling_resistance times its weight at its rim, and never turned round by that. */
+/* What rolls is slowed down as by a force of rolling_resistance times its weight at its rim, and never turned round by that. Its
+   moment of inertia is taken for a drum's, m r^2 / 2. */
 static double kept_turning(const nook_physics *p, const physics_body *body, double seconds)
 {
     double kept = exp(-nook_physics_tuning.angular_loss * seconds);
     if (body->rim == 0.0 || !body->touches)
         return kept;
     double speed = nook_vector_length(dBodyGetAngularVel(body->ode));
-    double lost = nook_physics_tuning.rolling_resistance * p->gravity / body->rim * seconds;
+    double lost = 2.0 * nook_physics_tuning.rolling_resistance * p->gravity / body->rim * seconds;
     return lost < speed ? kept * (1.0 - lost / speed) : 0.0;
 }
 

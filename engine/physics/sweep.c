@@ -8,6 +8,7 @@
  */
 
 typedef struct wall_query {
+    const physics_body *body;
     dContactGeom nearest;
     bool hit;
 } wall_query;
@@ -17,6 +18,8 @@ static void near_wall(void *user, dGeomID g1, dGeomID g2)
     wall_query *query = user;
     bool first = dGeomGetClass(g1) == dRayClass;
     dContactGeom found;
+    if (!nook_physics_may_touch(query->body, dGeomGetData(first ? g2 : g1)))
+        return;
     if (dCollide(first ? g1 : g2, first ? g2 : g1, 1, &found, sizeof found) == 0)
         return;
     if (!query->hit || found.depth < query->nearest.depth)
@@ -48,7 +51,7 @@ void nook_physics_stop_at_walls(nook_physics *physics, physics_body *body)
     double length = nook_vector_length(way);
     if (!(length > nook_physics_tuning.sweep_metres) || !nook_vector_normalize(way, direction))
         return;
-    wall_query query = { .hit = false };
+    wall_query query = { .body = body };
     dGeomRaySetLength(physics->ray, length);
     dGeomRaySet(physics->ray, from[0], from[1], from[2], direction[0], direction[1], direction[2]);
     dSpaceCollide2(physics->ray, (dGeomID)physics->fixed, &query, near_wall);
