@@ -77,6 +77,7 @@ end
 -- Parts, lowest first; a part uses only what stands above it here (docs/architecture.md).
 library("nook_core", c_project, "engine/core", "/**.c")
 library("nook_platform", c_project, "engine/platform", "/**.c")
+library("nook_module", c_project, "engine/module", "/**.c")
 library("nook_gpu", c_project, "engine/gpu", "/**.c")
 library("nook_ecs", c_project, "engine/ecs", "/**.c")
 library("nook_physics", c_project, "engine/physics", "/**.c")
@@ -115,6 +116,7 @@ for _, file in ipairs(tests) do
     c_project("test_" .. folder:gsub("/", "_") .. subject, "ConsoleApp")
     targetdir(out .. "/tests")
     files { file }
+    if folder == "module/" then linkoptions { "-rdynamic" } end -- its libraries find the engine in the test
     if folder == "embed/" then -- a host of the AO core alone: that this links is a part of the test
       links { "nook_ao_volume", "nook_ao_ssao", "nook_ao", "nook_bake", "nook_gpu", "nook_core", "zstd", "xxhash", "dl", "m" }
     else

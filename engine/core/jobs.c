@@ -24,6 +24,13 @@ typedef struct worker_start {
     unsigned worker;
 } worker_start;
 
+static _Thread_local int all_inline;
+
+void nook_parallel_inline(int inlined)
+{
+    all_inline = inlined;
+}
+
 unsigned nook_core_count(void)
 {
     cpu_set_t allowed;
@@ -80,7 +87,7 @@ void nook_parallel_for(size_t count, unsigned threads, nook_job job, void *user)
     assert(job);
     if (count == 0)
         return;
-    unsigned workers = nook_parallel_workers(count, threads);
+    unsigned workers = all_inline ? 1 : nook_parallel_workers(count, threads);
     if (workers == 1) {
         job(user, 0, count, 0);
         return;

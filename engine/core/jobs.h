@@ -26,6 +26,12 @@ unsigned nook_parallel_workers(size_t count, unsigned threads);
  */
 void nook_parallel_for(size_t count, unsigned threads, nook_job job, void *user);
 
+/**
+ * From now on nook_parallel_for, called on this thread, runs in one piece on this thread (1), or on many again (0): for code
+ * that may crash, whose crash must be that of its caller (engine/module/guard.h).
+ */
+void nook_parallel_inline(int inlined);
+
 #ifdef __cplusplus
 }
 #endif
