@@ -66,6 +66,7 @@ struct nook_session {
     uint64_t ticks, end_tick; /**< end_tick: when it was won or lost. */
     uint32_t looked_at;       /**< Into things, or NOOK_NONE. */
     uint32_t open;            /**< Locks that were open after the last tick. */
+    uint32_t returned;        /**< Bodies that were brought back in this try. */
     char message[NOOK_MESSAGE_SIZE];
     uint64_t message_until; /**< Tick; UINT64_MAX: for good. */
 };

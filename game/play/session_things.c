@@ -327,12 +327,14 @@ void session_return_bodies(nook_session *s)
         if (s->carry.thing == i)
             session_carry_drop(s);
         nook_physics_set_pose(s->physics, thing->body, &thing->start);
+        s->returned++;
     }
     if (is_outside(s->desc.scene, s->player.feet)) {
         nook_pose start = nook_pose_identity();
         memcpy(start.position, s->desc.level->start, sizeof start.position);
         nook_physics_set_pose(s->physics, s->player.body, &start);
         memcpy(s->player.feet, start.position, sizeof s->player.feet);
+        s->returned++;
         memcpy(s->player.was_feet, start.position, sizeof s->player.was_feet);
     }
 }
