@@ -1,6 +1,7 @@
 #include "game/play/play.h"
 #include "engine/core/log.h"
 #include "game/commands/commands.h"
+#include "game/interrupt.h"
 #include "game/option_rows.h"
 #include "game/play/play_window.h"
 
@@ -105,13 +106,14 @@ static int play_in_window(const nook_app *app, const play_request *request)
     nook_result result = nook_play_window_open(app->root, &desc, &window);
     if (result != NOOK_OK)
         return NOOK_EXIT_FAILED;
-    if (!window.has_window && nook_play_is_free(&window.play)) {
-        nook_fail(NOOK_E_DEVICE, "play: there is no display; give --headless with --replay or --pilot");
-        result = NOOK_E_DEVICE;
-    }
-    while (result == NOOK_OK && goes_on)
+    nook_interrupt_hold();
+    while (result == NOOK_OK && goes_on && !nook_interrupt_asked())
         result = nook_play_window_frame(&window, &goes_on);
+    if (nook_interrupt_asked())
+        nook_interrupt_answer(); /* as if the window had been closed */
+    nook_play_print_end(&window.play);
     nook_result closed = nook_play_window_close(&window);
+    nook_interrupt_release();
     return result == NOOK_OK && closed == NOOK_OK ? NOOK_EXIT_OK : NOOK_EXIT_FAILED;
 }
 

@@ -54,12 +54,14 @@ nook_result nook_play_begin(nook_play *play, const nook_scene *scene, nook_game_
 nook_result nook_play_tick(nook_play *play, const nook_play_input *from_player);
 /** Whether nothing but the player would give the next input. */
 bool nook_play_is_free(const nook_play *play);
+/** One line on standard output: won, lost, ended (where nothing can be won) or undecided, after how many ticks, and the hash of the state. */
+void nook_play_print_end(const nook_play *play);
 /** Writes the recording, if one is asked for, and frees everything. @return NOOK_E_IO, NOOK_E_MEMORY: not written; closed it is */
 nook_result nook_play_close(nook_play *play);
 
 /**
  * Plays a begun game without a window, as fast as it goes: to the end of what drives it, or 2 s beyond the end of the game; a
- * level with a time limit goes on to that. Says on standard output how it ended: won, lost, ended or undecided.
+ * level with a time limit goes on to that. Prints how it ended.
  * @param out_orderly  won or lost, or ended where the level has neither
  * @return as nook_play_tick; NOOK_E_ARG nothing drives it and it would never end
  */

@@ -26,9 +26,10 @@ static bool is_over(const nook_play *play)
     return play->pilot || !(play->level->seconds > 0.0); /* a replay that went astray is lost in time */
 }
 
-static void say_end(const nook_play *play, bool decided)
+void nook_play_print_end(const nook_play *play)
 {
     static const char *const words[] = { "undecided", "won", "lost" };
+    bool decided = can_end(play->level);
     nook_session_view view = nook_session_look(play->session);
     uint64_t ticks = play->ended_at > 0 ? play->ended_at : view.ticks;
     printf("%s after %llu ticks (%.1f s), hash %016llx\n", decided ? words[view.status] : "ended",
@@ -47,8 +48,7 @@ nook_result nook_play_headless(nook_play *play, bool *out_orderly)
         if (result != NOOK_OK)
             return result;
     }
-    bool decides = can_end(play->level);
-    say_end(play, decides);
-    *out_orderly = play->pilot_status != NOOK_PILOT_FAILED && (!decides || play->ended_at > 0);
+    nook_play_print_end(play);
+    *out_orderly = play->pilot_status != NOOK_PILOT_FAILED && (!can_end(play->level) || play->ended_at > 0);
     return NOOK_OK;
 }

@@ -42,6 +42,8 @@ static nook_result open_stage(nook_play_window *w, const char *root, const nook_
     if (result != NOOK_OK)
         return result;
     w->has_window = w->stage.shows;
+    if (!w->has_window && !w->driven && nook_play_is_free(&w->play))
+        return nook_fail(NOOK_E_DEVICE, "play: there is no display to play on; give --replay or --pilot");
     w->width = desc->width;
     w->height = desc->height;
     return nook_overlay_create(w->stage.gpu, &w->overlay);
@@ -87,6 +89,7 @@ nook_result nook_play_window_open(const char *root, const nook_play_window_desc 
     nook_play_window *w = out_window;
     memset(w, 0, sizeof *w);
     w->frame_seconds = desc->frame_seconds;
+    w->driven = desc->driven;
     nook_path_join(w->preferences_path, sizeof w->preferences_path, desc->cache, "preferences.txt");
     nook_preferences_read(w->preferences_path, &w->preferences);
     w->kept = w->preferences;
@@ -243,6 +246,7 @@ nook_result nook_play_window_frame(nook_play_window *w, bool *out_goes_on)
             result = present(w);
         w->stage.frame_index++;
     }
-    *out_goes_on = result == NOOK_OK && !w->quit && (w->has_window || !nook_play_is_free(&w->play));
+    nook_play_tell(w);
+    *out_goes_on = result == NOOK_OK && !w->quit && (w->has_window || w->driven || !nook_play_is_free(&w->play));
     return result;
 }

@@ -23,6 +23,7 @@ typedef struct nook_play_window_desc {
     uint32_t width, height; /**< Of the window, pixels. */
     const char *settings;   /**< Technique and parameters; NULL: the level's. */
     const char *cache;      /**< Baked volumes, and the player's preferences. */
+    bool driven;            /**< Who calls drives it: neither window, replay nor pilot is needed. */
     double frame_seconds;   /**< > 0: every frame takes this long. 0: what the clock says. */
 } nook_play_window_desc;
 
@@ -31,6 +32,14 @@ typedef struct nook_frame_pacing {
     float ms[NOOK_PLAY_HISTORY];
     uint32_t count, next;
 } nook_frame_pacing;
+
+/** What of a game has been told: only what is new is. */
+typedef struct nook_play_told {
+    char carried[NOOK_LEVEL_NAME_SIZE];
+    nook_session_status status;
+    uint32_t open;
+    bool paused;
+} nook_play_told;
 
 /** Members are for reading; zeroed is closed. */
 typedef struct nook_play_window {
@@ -45,7 +54,8 @@ typedef struct nook_play_window {
     double frame_seconds;
     double clock_ms, left; /**< At the last frame; seconds that no tick has used yet. */
     nook_frame_pacing pacing;
-    bool has_window, paused, help, captured;
+    nook_play_told told; /**< What the log and the title have said last. */
+    bool driven, has_window, paused, help, captured;
     bool quit;              /**< Asked for in the menu or by the window. */
     bool restart;           /**< Asked for in the menu: goes into the next tick. */
     uint32_t width, height; /**< Of the window, or of the picture where there is none. */
@@ -57,6 +67,9 @@ nook_result nook_play_window_open(const char *root, const nook_play_window_desc 
 nook_result nook_play_window_frame(nook_play_window *window, bool *out_goes_on);
 /** Writes recording and preferences, frees everything. @return NOOK_E_IO, NOOK_E_MEMORY: not written; closed it is */
 nook_result nook_play_window_close(nook_play_window *window);
+
+/** Logs what has happened since the last call, and puts the state of the game into the title. */
+void nook_play_tell(nook_play_window *window);
 
 /** Adds a frame. */
 void nook_frame_pacing_add(nook_frame_pacing *pacing, double ms);

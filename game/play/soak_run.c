@@ -154,6 +154,7 @@ nook_result nook_soak_run(const char *root, const nook_soak_desc *desc, nook_soa
 {
     nook_play_window window;
     nook_play_window_desc how = desc->window;
+    how.driven = true;
     how.frame_seconds = NOOK_PHYSICS_STEP * (1.0 + 1e-9); /* so that rounding makes no frame without a tick */
     *out_report = (nook_soak_report){ .frames = 0 };
     nook_result result = nook_play_window_open(root, &how, &window);
