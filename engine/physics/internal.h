@@ -34,6 +34,7 @@ typedef struct physics_body {
     bool upright, ghost;
     bool touches; /* something, in this piece of a step */
     bool aimed;   /* target is where the next step brings it */
+    bool bedded;  /* to be put to sleep where it is once a step has found what it rests on */
     physics_activity activity;
     double friction, restitution, mass;
     uint64_t user;
@@ -148,5 +149,7 @@ void nook_physics_stop_at_walls(nook_physics *physics, physics_body *body);
 
 /* ---- sleep.c ---- */
 
+/* Back to where the step began, and to sleep. */
+void nook_physics_lay_down(physics_body *body);
 /* Puts to sleep what has been at rest together. */
 void nook_physics_settle(nook_physics *physics);

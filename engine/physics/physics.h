@@ -103,7 +103,10 @@ void nook_physics_ignore(nook_physics *physics, nook_body a, nook_body b);
 double nook_physics_mass(const nook_physics *physics, nook_body body); /**< 0 for what is not dynamic. */
 bool nook_physics_asleep(const nook_physics *physics, nook_body body);
 void nook_physics_wake(nook_physics *physics, nook_body body);
-/** Puts a body to sleep where it is, at rest, until something that moves touches it. For what a file says lies still. */
+/**
+ * Puts a body to sleep exactly where it is, at rest, until something that moves touches it. For what a file says lies still.
+ * What carries it feels it after the next step.
+ */
 void nook_physics_sleep(nook_physics *physics, nook_body body);
 
 /** Newtons with which others pressed this body down in the last step: 9.81 a kilogram that rests on it. */

@@ -9,6 +9,7 @@ bool nook_physics_sleeps(const physics_body *body)
 void nook_physics_wake_body(physics_body *body)
 {
     body->rest_steps = 0;
+    body->bedded = false;
     if (body->motion == NOOK_BODY_DYNAMIC)
         dBodyEnable(body->ode);
 }
@@ -35,7 +36,7 @@ void nook_physics_wake(nook_physics *physics, nook_body body)
 bool nook_physics_asleep(const nook_physics *physics, nook_body body)
 {
     const physics_body *b = nook_physics_find(physics, body);
-    return b && nook_physics_sleeps(b);
+    return b && (nook_physics_sleeps(b) || b->bedded);
 }
 
 /* ---- who may sleep ---- */
@@ -92,11 +93,23 @@ static bool is_awake(const physics_body *body)
     return body->motion == NOOK_BODY_DYNAMIC && dBodyIsEnabled(body->ode);
 }
 
+/* Not at once: its contacts would not be known, nor its weight on what carries it, nor whom to wake when that goes. */
 void nook_physics_sleep(nook_physics *physics, nook_body body)
 {
     physics_body *b = nook_physics_find(physics, body);
-    if (b && b->motion == NOOK_BODY_DYNAMIC)
-        fall_asleep(b);
+    if (!b || b->motion != NOOK_BODY_DYNAMIC || nook_physics_sleeps(b))
+        return;
+    b->bedded = true;
+    dBodySetLinearVel(b->ode, 0, 0, 0);
+    dBodySetAngularVel(b->ode, 0, 0, 0);
+}
+
+void nook_physics_lay_down(physics_body *body)
+{
+    body->bedded = false;
+    body->current = body->previous;
+    nook_physics_place(body);
+    fall_asleep(body);
 }
 
 void nook_physics_settle(nook_physics *physics)

@@ -68,6 +68,21 @@ static void apply_forces(nook_physics *p, double seconds)
     }
 }
 
+/* The solver moves bodies with the velocity at the end of a piece. What touches nothing is put back by the difference to the
+   parabola, so that a throw is the same in however many pieces a step is done. */
+static void follow_parabolas(nook_physics *p, double seconds)
+{
+    const double half_square = 0.5 * seconds * seconds;
+    for (uint32_t i = 0; i < p->body_count; i++) {
+        physics_body *body = p->bodies[i];
+        if (body->motion != NOOK_BODY_DYNAMIC || body->touches || nook_physics_sleeps(body))
+            continue;
+        double at[3];
+        nook_vector_add_scaled(dBodyGetPosition(body->ode), -half_square / body->mass, body->force, at);
+        dBodySetPosition(body->ode, at[0], at[1] + half_square * p->gravity, at[2]);
+    }
+}
+
 static void advance(nook_physics *p, double seconds)
 {
     nook_physics_collide(p);
@@ -75,6 +90,7 @@ static void advance(nook_physics *p, double seconds)
     dRandSetSeed(p->random);
     dWorldQuickStep(p->world, seconds);
     p->random = dRandGetSeed();
+    follow_parabolas(p, seconds);
     nook_physics_release_contacts(p);
 }
 
@@ -111,6 +127,8 @@ static nook_result end(nook_physics *p)
         physics_body *body = p->bodies[i];
         if (body->motion == NOOK_BODY_DYNAMIC && !nook_physics_sleeps(body)) {
             end_dynamic(p, body);
+            if (body->bedded)
+                nook_physics_lay_down(body);
             if (!finite_pose(&body->current))
                 result = nook_fail(NOOK_E_RANGE, "physics: body %u is nowhere after step %llu; please report it",
                                    body->id, (unsigned long long)p->steps);

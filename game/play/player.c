@@ -242,11 +242,10 @@ static void weigh(nook_session *s)
         nook_physics_push(s->physics, s->player.ground, weight);
 }
 
-/* From a standing jump the soles come to exactly the height that was asked for, in steps as they are. */
+/* From a standing jump the soles come to exactly the height that was asked for: what flies follows a parabola. */
 static double jump_speed(double height)
 {
-    double half = 0.5 * NOOK_PHYSICS_STEP;
-    return session_gravity * (half + sqrt(half * half + 2.0 * height / session_gravity));
+    return sqrt(2.0 * session_gravity * height);
 }
 
 static void go(nook_session *s, const nook_play_input *input, bool jumps)

@@ -78,6 +78,28 @@ static void test_sleeper_and_walker_weigh_together(void **state)
     nook_physics_destroy(physics);
 }
 
+static void test_stack_put_to_sleep_weighs_and_stays_to_the_last_bit(void **state)
+{
+    (void)state;
+    nook_physics *physics = physics_scene_create();
+    nook_body plate = add_plate(physics, NOOK_BODY_KINEMATIC), crates[3];
+    for (int i = 0; i < 3; i++) { /* with a tenth of a millimetre between them, as files have it */
+        crates[i] = physics_scene_crate(physics, 0.2, 10, 0, 0.2799 + 0.3999 * i, 0);
+        nook_physics_sleep(physics, crates[i]);
+        assert_true(nook_physics_asleep(physics, crates[i]));
+    }
+    physics_scene_step(physics, 100);
+    for (int i = 0; i < 3; i++) {
+        assert_true(nook_physics_asleep(physics, crates[i]));
+        physics_assert_near(physics_scene_height(physics, crates[i]), 0.2799 + 0.3999 * i, 1e-12);
+    }
+    physics_assert_near(nook_physics_load(physics, plate), 30 * g, 0.02 * 30 * g);
+    nook_physics_remove(physics, crates[0]);
+    physics_scene_step(physics, 60);
+    assert_true(physics_scene_height(physics, crates[2]) < 0.9);
+    nook_physics_destroy(physics);
+}
+
 static void test_push_from_above_is_felt(void **state)
 {
     (void)state;
@@ -99,6 +121,7 @@ int main(void)
         cmocka_unit_test(test_kinematic_plate_feels_what_lies_on_it_awake_and_asleep),
         cmocka_unit_test(test_stack_weighs_on_each_of_its_bodies),
         cmocka_unit_test(test_sleeper_and_walker_weigh_together),
+        cmocka_unit_test(test_stack_put_to_sleep_weighs_and_stays_to_the_last_bit),
         cmocka_unit_test(test_push_from_above_is_felt),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
