@@ -131,7 +131,9 @@ static bool step_take(moment *m)
     double pitch = fmax(-1.2, fmin(1.2, atan2(middle[1] - m->view.eyes[1], take_from)));
     bool near = hypot(middle[0] - m->view.feet[0], middle[2] - m->view.feet[2]) < take_from ||
                 go_to(m, middle[0], middle[2], pitch, false, take_from);
-    if (near && look_at(m, middle) && strcmp(m->view.looked_at, m->step->name) == 0 && m->pilot->ticks % 8 == 0)
+    if (near)
+        look_at(m, middle); /* which may move: to be looked at will do */
+    if (near && strcmp(m->view.looked_at, m->step->name) == 0 && m->pilot->ticks % 8 == 0)
         m->out->buttons |= NOOK_PLAY_TAKE;
     return false;
 }

@@ -166,6 +166,9 @@ static void find_ground_velocity(nook_session *s)
     nook_pose pose = nook_physics_pose(s->physics, player->ground, 1.0);
     nook_physics_velocity(s->physics, player->ground, linear, angular);
     nook_vector_add_scaled(player->feet, -1.0, pose.position, arm);
+    nook_vector_cross(angular, arm,
+                      turning); /* along the chord of the step: along the tangent one would spiral outwards */
+    nook_vector_add_scaled(arm, 0.5 * NOOK_PHYSICS_STEP, turning, arm);
     nook_vector_cross(angular, arm, turning);
     nook_vector_add_scaled(linear, 1.0, turning, player->ground_velocity);
 }
@@ -248,27 +251,39 @@ static double jump_speed(double height)
     return sqrt(2.0 * session_gravity * height);
 }
 
+/* The speed up or down at once; a force would come in pieces. Only flight is left to gravity. @return whether legs hold it */
+static bool rise(nook_session *s, double velocity[3], bool jumps)
+{
+    session_player *player = &s->player;
+    const double no_turning[3] = { 0, 0, 0 };
+    bool stands = player->grounded, jumped = jumps && stands && !player->crouched;
+    if (jumped) {
+        velocity[1] = jump_speed((double)s->params.jump) + player->ground_velocity[1];
+        player->rising = true;
+        player->grounded = false;
+    } else if (stands) {
+        velocity[1] += climb(s, velocity[1]);
+    } else if (player->was_grounded && !player->rising) {
+        velocity[1] = fmin(0.0, velocity[1]); /* the ground slipped away under a step up: that was no jump */
+    }
+    player->was_grounded = player->grounded;
+    nook_physics_set_velocity(s->physics, player->body, velocity, no_turning);
+    return player->grounded;
+}
+
 static void go(nook_session *s, const nook_play_input *input, bool jumps)
 {
     session_player *player = &s->player;
-    double linear[3], angular[3], wanted[3], change[3];
+    double linear[3], angular[3], wanted[3], force[3];
     nook_physics_velocity(s->physics, player->body, linear, angular);
     find_ground(s, linear);
     wanted_velocity(s, input, wanted);
-    steer(s, linear, wanted, change);
+    steer(s, linear, wanted, force);
     weigh(s);
-    if (jumps && player->grounded && !player->crouched) {
-        linear[1] = jump_speed((double)s->params.jump) + player->ground_velocity[1];
-        nook_physics_set_velocity(s->physics, player->body, linear, angular);
-        player->rising = true;
-        player->grounded = false;
-    } else if (player->grounded) {
-        change[1] = climb(s, linear[1]) + session_gravity * NOOK_PHYSICS_STEP;
-    }
+    force[1] = rise(s, linear, jumps) ? session_gravity * NOOK_PHYSICS_STEP : 0.0;
     for (int k = 0; k < 3; k++)
-        change[k] *= (double)s->params.mass / NOOK_PHYSICS_STEP;
-    nook_physics_push(s->physics, player->body, change);
-    player->was_grounded = player->grounded;
+        force[k] *= (double)s->params.mass / NOOK_PHYSICS_STEP;
+    nook_physics_push(s->physics, player->body, force);
 }
 
 nook_result session_player_move(nook_session *s, const nook_play_input *input, uint16_t pressed)

@@ -197,6 +197,14 @@ double nook_session_state_of(const nook_session *session, const char *entity)
     return session->rules[found - session->desc.level->entities].progress;
 }
 
+double nook_session_measure_of(const nook_session *session, const char *entity)
+{
+    const nook_level_entity *found = nook_level_find(session->desc.level, entity);
+    if (!found || !session_is_lock(found))
+        return -1.0;
+    return session->rules[found - session->desc.level->entities].measured;
+}
+
 static const session_thing *find_thing(const nook_session *s, const char *name)
 {
     for (uint32_t i = 0; i < s->thing_count; i++) {

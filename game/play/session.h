@@ -76,6 +76,8 @@ nook_session_view nook_session_look(const nook_session *session);
 
 /** State of one of the level's plates, shades, movers, spinners, goals: 0 to 1. @return -1 no such entity */
 double nook_session_state_of(const nook_session *session, const char *entity);
+/** What a lock feels: a plate the newtons on it, a shade the part of the sky it sees, [0, 1]. @return -1 no such entity */
+double nook_session_measure_of(const nook_session *session, const char *entity);
 /** @param name  of an entity or of a node. @return {0} when there is none */
 nook_body nook_session_body_of(const nook_session *session, const char *name);
 /** Where the middle of a body's box is. @return false: no such body; the output is untouched then */
