@@ -110,8 +110,23 @@ static nook_result refuse_node(const loading *l, const nook_level_entity *entity
     if (!known)
         return nook_fail(NOOK_E_NOT_FOUND, "%s:%u: %s: there is no library %s; the top of the file names them",
                          l->level->path, entity->line, entity->name, library);
-    return nook_fail(NOOK_E_NOT_FOUND, "%s:%u: %s: %s has no node %s%s%s%s", l->level->path, entity->line, entity->name,
-                     *library ? library : "no scene", node, *hint ? "; did you mean " : "", hint, *hint ? "?" : "");
+    return nook_fail(NOOK_E_NOT_FOUND, "%s:%u: %s: there is no node %s in %s%s%s%s", l->level->path, entity->line,
+                     entity->name, node, *library ? library : "the scene", *hint ? "; did you mean " : "", hint,
+                     *hint ? "?" : "");
+}
+
+/* Nodes are known by their names: that of an entity from a library must not be another's. */
+static nook_result check_name(const loading *l, const nook_level_entity *entity)
+{
+    for (uint32_t p = 0; p < l->part_count; p++) {
+        const nook_scene *scene = l->parts[p].scene;
+        for (uint32_t i = 0; i < scene->node_count && l->parts[p].nodes; i++) {
+            if (strcmp(scene->nodes[i].name, entity->name) == 0)
+                return nook_fail(NOOK_E_FORMAT, "%s:%u: %s: %s has a node of that name; give the entity another",
+                                 l->level->path, entity->line, entity->name, scene->path);
+        }
+    }
+    return NOOK_OK;
 }
 
 static nook_result take_from_library(loading *l, const nook_level_entity *entity, const char *library,
@@ -126,7 +141,8 @@ static nook_result take_from_library(loading *l, const nook_level_entity *entity
                 continue;
             l->instances[l->instance_count++] =
                 (nook_scene_instance){ entity->name, p, i, place(entity, &scene->nodes[i]), moves(entity) };
-            return check_node(l, entity, scene, i);
+            nook_result result = check_name(l, entity);
+            return result == NOOK_OK ? check_node(l, entity, scene, i) : result;
         }
     }
     return refuse_node(l, entity, library, node_name);

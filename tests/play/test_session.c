@@ -10,12 +10,12 @@
 #include <cmocka.h>
 
 #define STILL ", 'extras': { 'nook_body': false }"
-#define ROOM                                                            \
-    PLAY_BOX("plate", 0, 0.025, -2, 1, 0.05, 1, STILL)                  \
-    PLAY_BOX("wheel", 3, 1, -2, 1, 1, 0.1, "")                          \
-    PLAY_BOX("stone", -2, 0.1, -2, 0.2, 0.2, 0.2, STILL)                \
-        PLAY_BOX("crate_0", 2, 0.2, -1.2, 0.4, 0.4, 0.4, PLAY_BODY(15)) \
-            PLAY_BOX("crate_1", 2, 0.6, -1.2, 0.4, 0.4, 0.4, PLAY_BODY(15))
+#define ROOM                                                        \
+    PLAY_BOX("plate", 0, 0.025, -2, 1, 0.05, 1, STILL)              \
+    PLAY_BOX("wheel", 3, 1, -2, 1, 1, 0.1, "")                      \
+    PLAY_BOX("stone", -2, 0.1, -2, 0.2, 0.2, 0.2, STILL)            \
+    PLAY_BOX("crate_0", 2, 0.2, -1.2, 0.4, 0.4, 0.4, PLAY_BODY(15)) \
+    PLAY_BOX("crate_1", 2, 0.6, -1.2, 0.4, 0.4, 0.4, PLAY_BODY(15))
 static const char entities[] = "task = Play\nseconds = 60\n[plate plate]\nweight = 70\nseconds = 0.2\n"
                                "[spinner wheel]\naxis = 0 0 1\nrpm = 10\n[shade stone]\nvisibility = 0.3\nreach = 2\n"
                                "[goal end]\nat = 0 1 -4\nsize = 1 2 1\nneeds = plate\n";
