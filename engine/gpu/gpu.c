@@ -108,6 +108,11 @@ void nook_gpu_destroy(nook_gpu *gpu)
     release(gpu);
 }
 
+const char *nook_gpu_source_root(const nook_gpu *gpu)
+{
+    return gpu->cache->source_root;
+}
+
 static const char *error_name(GLenum error)
 {
     switch (error) {

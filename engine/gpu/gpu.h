@@ -87,6 +87,8 @@ typedef struct nook_gpu_desc {
 nook_result nook_gpu_create(const nook_gpu_desc *desc, nook_gpu **out_gpu);
 /** Deletes its programs too; its context must be current. NULL is allowed. */
 void nook_gpu_destroy(nook_gpu *gpu);
+/** The folder that shaders are looked for in: of the description. */
+const char *nook_gpu_source_root(const nook_gpu *gpu);
 
 /**
  * Immutable 2D texture, one level; contents undefined. @param filter GL_NEAREST or GL_LINEAR (clamped to the edge)
@@ -144,6 +146,8 @@ nook_result nook_program_raster(nook_gpu *gpu, const char *vertex_path, const ch
 void nook_program_use(nook_gpu *gpu, nook_program program);
 /** GL's name of it until the next nook_gpu_reload_shaders. */
 uint32_t nook_program_native(const nook_gpu *gpu, nook_program program);
+/** How often it has been built: what keeps pictures that it made compares that, and makes them anew after a reload. */
+uint32_t nook_program_version(const nook_gpu *gpu, nook_program program);
 
 /**
  * Sets a uniform of the program in use, `layout(location = ...)` below 32. Set all of them for every use: a reloaded program

@@ -11,6 +11,7 @@ typedef struct program_entry {
     char *paths[PROGRAM_STAGES_MAX]; /**< Owned; the second is NULL for compute. With defines: what it is found by. */
     char *defines;                   /**< Owned. */
     uint32_t id;                     /**< GL's name; 0: it has never been built. */
+    uint32_t version;                /**< How often it has been built. */
     uint32_t locations;              /**< Bit n: the program has a uniform at location n. */
     char **files;                    /**< Owned: what it was made of, relative to the source root. */
     uint32_t file_count;

@@ -93,6 +93,7 @@ static void take(nook_gpu *gpu, program_entry *entry, program_build *build)
     free_files(entry);
     free(entry->trouble);
     entry->id = build->id;
+    entry->version++;
     entry->locations = build->locations;
     entry->files = build->files;
     entry->file_count = build->file_count;
@@ -214,6 +215,11 @@ static const program_entry *entry_of(const nook_gpu *gpu, nook_program program)
 uint32_t nook_program_native(const nook_gpu *gpu, nook_program program)
 {
     return entry_of(gpu, program)->id;
+}
+
+uint32_t nook_program_version(const nook_gpu *gpu, nook_program program)
+{
+    return entry_of(gpu, program)->version;
 }
 
 void nook_program_use(nook_gpu *gpu, nook_program program)

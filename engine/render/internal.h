@@ -167,7 +167,8 @@ typedef struct shadow_contents {
     grow_list some;  /* nook_draw: those of one part */
     size_t draw_count;
     shadow_fit fit;
-    bool has_base; /* the base map holds all draws that do not move */
+    uint32_t program_version; /* of the programs that drew it */
+    bool has_base;            /* the base map holds all draws that do not move */
 } shadow_contents;
 
 struct nook_renderer {

@@ -16,10 +16,19 @@ static bool same_draw(const nook_draw *a, const nook_draw *b)
     return memcmp(a, b, sizeof *a) == 0;
 }
 
-/** Whether the map is of this scene, this sun and these draws, wherever those that move stand now. */
-static bool is_of(const shadow_contents *shadow, const nook_frame *frame)
+/** Another one when a shader that the map was made with has been reloaded. */
+static uint32_t program_version(const nook_renderer *renderer)
 {
-    bool same = shadow->scene == frame->scene && shadow->scene_created_ms == frame->scene->created_ms &&
+    return nook_program_version(renderer->gpu, renderer->shadow_program) +
+           nook_program_version(renderer->gpu, renderer->shadow_masked_program);
+}
+
+/** Whether the map is of this scene, this sun and these draws, wherever those that move stand now. */
+static bool is_of(const nook_renderer *renderer, const nook_frame *frame)
+{
+    const shadow_contents *shadow = &renderer->shadow;
+    bool same = shadow->scene == frame->scene && shadow->program_version == program_version(renderer) &&
+                shadow->scene_created_ms == frame->scene->created_ms &&
                 same_direction(shadow->sun_direction, frame->lights->sun.direction) &&
                 shadow->draw_count == frame->draw_count;
     const nook_draw *draws = shadow->draws.items;
@@ -180,11 +189,12 @@ nook_result nook_pass_shadow(nook_renderer *renderer, const nook_frame *frame)
     if (!nook_sun_shines(&frame->lights->sun))
         return NOOK_OK;
     shadow_rects changes;
-    bool drawn = true, in_parts = is_of(shadow, frame) && find_changes(shadow, frame, &changes);
+    bool drawn = true, in_parts = is_of(renderer, frame) && find_changes(shadow, frame, &changes);
     shadow->scene = NULL; /* until it is whole */
     nook_result result = in_parts ? draw_changes(renderer, frame, &changes) : draw_all(renderer, frame, &drawn);
     if (result == NOOK_OK && drawn)
         result = remember(shadow, frame);
+    shadow->program_version = program_version(renderer);
     if (result == NOOK_OK && drawn)
         set_uniforms(renderer, &frame->camera);
     return result;

@@ -2,6 +2,7 @@
 #include "engine/core/clock.h"
 #include "engine/core/log.h"
 #include "game/compare/camera.h"
+#include "game/live/shader_reload.h"
 #include "game/view/orbit.h"
 #include <math.h>
 #include <stdio.h>
@@ -18,6 +19,7 @@ typedef struct viewer {
     nook_stage *stage;
     const char *scene_name;
     const nook_compare_choice *choice;
+    nook_shader_reload *shaders; /* NULL: they cannot be watched */
     nook_orbit orbit;
     double diagonal, scale;             /* metres; ao.scale when nothing moves */
     const nook_ao_technique *technique; /* NULL: none */
@@ -185,6 +187,14 @@ static nook_result occlude(viewer *v, bool moving)
     return result;
 }
 
+/* Whether what failed is a shader that was never good: saving a better one is seen, so the picture goes on without it. */
+static bool can_be_mended(const viewer *v)
+{
+    nook_shader_report report;
+    nook_gpu_shader_report(v->stage->gpu, &report);
+    return v->shaders && report.failed > 0;
+}
+
 /* Makes everything anew; the reference waits until nothing moves. */
 static nook_result redraw(viewer *v)
 {
@@ -194,16 +204,29 @@ static nook_result redraw(viewer *v)
     v->coarse = moving;
     v->changed = false;
     nook_result result = nook_stage_begin(v->stage, &camera);
-    return result == NOOK_OK && v->occluded ? occlude(v, moving) : result;
+    if (result == NOOK_OK && v->occluded && occlude(v, moving) != NOOK_OK) {
+        if (!can_be_mended(v))
+            return NOOK_E_DEVICE;
+        v->occluded = false;
+    }
+    return result;
+}
+
+/* What shaders that were saved are wrong about; "" when nothing. */
+static const char *shader_error(const viewer *v)
+{
+    return v->shaders ? nook_shader_reload_status(v->shaders)->error : "";
 }
 
 static void show_title(const viewer *v)
 {
     char title[512], cost[64] = "";
+    const char *error = shader_error(v), *keys = "0-9 technique, V view, C camera, Esc quits";
     if (v->occluded)
         snprintf(cost, sizeof cost, " %.1f ms", v->ms);
-    snprintf(title, sizeof title, "Nook - %s - %d %s%s - %s - 0-9 technique, V view, C camera, Esc quits",
-             v->scene_name, v->key, v->technique ? v->technique->name : "none", cost, nook_view_name(v->view));
+    snprintf(title, sizeof title, "Nook - %s - %d %s%s - %s - %.*s", v->scene_name, v->key,
+             v->technique ? v->technique->name : "none", cost, nook_view_name(v->view),
+             error[0] ? (int)strcspn(error, "\n") : (int)strlen(keys), error[0] ? error : keys);
     nook_context_set_title(v->stage->context, title);
 }
 
@@ -237,6 +260,8 @@ static nook_result loop(viewer *v)
             return NOOK_OK;
         read_keys(v, &input);
         move(v, &input);
+        if (v->shaders && nook_shader_reload_poll(v->shaders))
+            v->changed = true;
         nook_result result = NOOK_OK;
         bool visible = input.width > 0 && input.height > 0;
         if (visible && (input.width != v->stage->width || input.height != v->stage->height)) {
@@ -270,9 +295,12 @@ nook_result nook_view_run(nook_stage *stage, const nook_camera *camera, const no
         result = nook_ao_set_param(stage->ao, "reference.rays", fmin(rays, rays_max));
     if (result != NOOK_OK)
         return result;
+    if (nook_shader_reload_create(stage->gpu, &v.shaders) != NOOK_OK)
+        nook_log_warning("view: shaders that change are not seen until the next start");
     choose_technique(&v, 1);
     nook_context_show(stage->context);
     result = loop(&v);
+    nook_shader_reload_destroy(v.shaders);
     nook_ao_set_param(stage->ao, "reference.rays", rays);
     nook_ao_set_param(stage->ao, "ao.scale", v.scale);
     return result;

@@ -2,61 +2,7 @@
 # `compare` with a display: a window under Xvfb, steered with xdotool.
 cd "${NOOK_ROOT:-$PWD}" || exit 1
 source tests/support/shell.sh
-tmp=${NOOK_TEST_TMP:-$(mktemp -d)}
-crate=tests/game/data/crate.gltf
-export tmp crate program=${NOOK_PROGRAM:-build/release/bin/nook}
-
-need_display() {
-    local tool
-    for tool in Xvfb xdotool import; do
-        command -v $tool >/dev/null || skip_test "$tool is not installed"
-    done
-}
-
-# with_display COMMAND...: under an X server of its own, which finds itself a free display (xvfb-run only guesses) and does not
-# start over whenever nobody is connected, as between two calls of xdotool.
-with_display() {
-    local server code=0
-    rm -f "$tmp/display"
-    Xvfb -displayfd 1 -screen 0 800x600x24 -nolisten tcp -noreset >"$tmp/display" 2>"$tmp/xvfb.log" &
-    server=$!
-    for _ in {1..100}; do
-        [ ! -s "$tmp/display" ] || break
-        sleep 0.1
-    done
-    DISPLAY=:$(cat "$tmp/display") timeout 200 "$@" || code=$?
-    kill $server
-    wait $server || true
-    return $code
-}
-
-# in_window SCRIPT [OPTION...]: runs it beside the program, with its window in $window; the program must end with exit code 0.
-in_window() {
-    need_display
-    export script=$1
-    shift
-    with_display bash -euc '
-        "$program" compare "$crate" --size 320x200 --frames 1 --reference-rays 4 --cache "$tmp/cache" --out "$tmp/out" "$@" \
-            >"$tmp/table" 2>"$tmp/log" &
-        program_id=$!
-        wait_for() { # SECONDS COMMAND...
-            local tries=$(($1 * 5))
-            shift
-            until "$@"; do
-                tries=$((tries - 1))
-                [ $tries -gt 0 ] && kill -0 $program_id || { echo "waited in vain for: $*"; cat "$tmp/log"; kill $program_id 2>/dev/null || true; wait $program_id || echo "exit code $?"; exit 1; }
-                sleep 0.2
-            done
-        }
-        find_window() { window=$(xdotool search --onlyvisible --name "^Nook - crate" 2>/dev/null | head -n 1) && [ -n "$window" ]; }
-        title_has() { xdotool getwindowname "$window" | grep -q -- "$1"; }
-        press() { xdotool key --window "$window" "$1"; }
-        wait_for 120 find_window
-        eval "$script"
-        xdotool keydown --window "$window" Escape # no release: the window is gone by then
-        wait $program_id
-    ' in_window "$@"
-}
+source tests/support/window.sh
 
 test_the_window_opens_after_the_comparison_and_escape_closes_it() {
     rm -rf "$tmp/out"

@@ -6,6 +6,7 @@
 #include <stdarg.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -68,6 +69,54 @@ void file_tree_replace(const file_tree *tree, const char *path, const char *text
     snprintf(fresh, sizeof fresh, "%s.new", full);
     write_file(fresh, text);
     assert_int_equal(rename(fresh, full), 0);
+}
+
+static void copy_file(const char *from, const char *to)
+{
+    nook_file file;
+    assert_int_equal(nook_file_read(from, &file), NOOK_OK);
+    assert_int_equal(nook_file_write(to, file.bytes, file.size), NOOK_OK);
+    nook_file_free(&file);
+}
+
+static void copy_all(const char *from, const char *to)
+{
+    char inner_from[PATH_CAPACITY], inner_to[PATH_CAPACITY];
+    const struct dirent *entry;
+    DIR *directory = nook_directory_exists(from) ? opendir(from) : NULL;
+    if (!directory) {
+        copy_file(from, to);
+        return;
+    }
+    assert_int_equal(nook_directory_make(to), NOOK_OK);
+    while ((entry = readdir(directory)) != NULL) {
+        if (entry->d_name[0] != '.')
+            copy_all(nook_path_join(inner_from, sizeof inner_from, from, entry->d_name),
+                     nook_path_join(inner_to, sizeof inner_to, to, entry->d_name));
+    }
+    closedir(directory);
+}
+
+void file_tree_copy(const file_tree *tree, const char *root, const char *path)
+{
+    char from[PATH_CAPACITY], to[PATH_CAPACITY];
+    copy_all(nook_path_join(from, sizeof from, root, path), file_tree_path(tree, path, to, sizeof to));
+}
+
+void file_tree_edit(const file_tree *tree, const char *path, const char *before, const char *after)
+{
+    char full[PATH_CAPACITY];
+    nook_file file;
+    assert_int_equal(nook_file_read(file_tree_path(tree, path, full, sizeof full), &file), NOOK_OK);
+    const char *text = (const char *)file.bytes, *at = strstr(text, before);
+    assert_non_null(at);
+    size_t size = file.size - strlen(before) + strlen(after) + 1;
+    char *edited = malloc(size);
+    assert_non_null(edited);
+    snprintf(edited, size, "%.*s%s%s", (int)(at - text), text, after, at + strlen(before));
+    file_tree_replace(tree, path, edited);
+    free(edited);
+    nook_file_free(&file);
 }
 
 void file_tree_remove(const file_tree *tree, const char *path)

@@ -18,6 +18,10 @@ const char *file_tree_path(const file_tree *tree, const char *path, char *out, s
 void file_tree_write(const file_tree *tree, const char *path, const char *text);
 /** Writes a new file and renames it over the old one, as most editors save. */
 void file_tree_replace(const file_tree *tree, const char *path, const char *text);
+/** Puts a copy of a file, or of a folder with all in it, under the same path. @param root where it is copied from */
+void file_tree_copy(const file_tree *tree, const char *root, const char *path);
+/** Puts `after` in the place of `before`, which must stand in the file, and saves it as file_tree_replace does. */
+void file_tree_edit(const file_tree *tree, const char *path, const char *before, const char *after);
 /** Deletes a file, or a folder with all in it. */
 void file_tree_remove(const file_tree *tree, const char *path);
 

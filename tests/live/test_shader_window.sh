@@ -1,0 +1,48 @@
+#!/usr/bin/env bash
+# Shaders edited while the window is open: a copy of them, never those of the sources.
+cd "${NOOK_ROOT:-$PWD}" || exit 1
+source tests/support/shell.sh
+source tests/support/window.sh
+
+copy_root() {
+    rm -rf "$tmp/root"
+    mkdir -p "$tmp/root/modules"
+    cp -r shaders "$tmp/root/"
+    cp -r modules/ao_* "$tmp/root/modules/"
+    export root=$tmp/root
+}
+
+test_saved_shader_is_seen_broken_one_is_in_the_title_and_the_mended_one_is_seen() {
+    copy_root
+    in_window '
+        shader=$root/shaders/render/view.frag.glsl include=$root/shaders/render/frame.glsl
+        press 0; wait_for 30 title_has "0 none"
+        sed -i "s/image = vec4(colour, 1.0)/image = vec4(1.0, 0.0, 1.0, 1.0)/" "$shader"  # writes a new file, renames it
+        wait_for 30 has_pixel 10 10 FF00FF
+        title_has "0-9 technique"
+        printf "float broken = no_such_name;\n" >>"$include"                               # in place, an include
+        line=$(wc -l <"$include")
+        wait_for 30 title_has "shaders/render/frame.glsl:$line: error: "
+        has_pixel 10 10 FF00FF
+        sed -i "/no_such_name/d" "$include"
+        sed -i "s/vec4(1.0, 0.0, 1.0, 1.0)/vec4(0.0, 1.0, 0.0, 1.0)/" "$shader"
+        wait_for 30 has_pixel 10 10 00FF00
+        wait_for 30 title_has "0-9 technique"'
+    grep -q 'shaders/render/frame.glsl:.*no_such_name' "$tmp/log"
+    grep -q 'shaders: 1 program reloaded' "$tmp/log"
+}
+
+# Only a picture made while something moves is traced at lower resolution, so that is when this shader is first built.
+test_occlusion_whose_shader_never_was_good_is_left_out_until_it_is_mended() {
+    copy_root
+    in_window '
+        shader=$root/shaders/ao/pick.comp.glsl
+        wait_for 30 title_has "1 volume .* ms"
+        echo "no_such_name;" >>"$shader"
+        hold w; wait_for 30 title_has "1 volume.*shaders/ao/pick.comp.glsl:"
+        sed -i "/no_such_name/d" "$shader"
+        wait_for 30 title_has "1 volume.*0-9 technique"
+        hold w; wait_for 30 title_has "1 volume .* ms.*0-9 technique"'
+}
+
+run_tests
