@@ -51,3 +51,9 @@ nook_result nook_draw_list_set_up(nook_world *world, nook_draw *items, uint32_t 
         result = nook_world_add_system(world, &collect_draws_system);
     return result;
 }
+
+nook_result nook_draw_list_renew(nook_world *world)
+{
+    nook_result result = nook_world_replace_system(world, &clear_draws_system);
+    return result == NOOK_OK ? nook_world_replace_system(world, &collect_draws_system) : result;
+}

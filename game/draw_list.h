@@ -15,3 +15,5 @@ typedef struct nook_draw_list {
  * @return NOOK_E_VERSION, NOOK_E_MEMORY
  */
 nook_result nook_draw_list_set_up(nook_world *world, nook_draw *items, uint32_t capacity);
+/** Gives a world that has them the systems of this code, which was loaded anew. @return as nook_world_replace_system */
+nook_result nook_draw_list_renew(nook_world *world);

@@ -196,6 +196,7 @@ void nook_query_table_added(nook_world *world, nook_table *table);
 nook_result nook_query_make(nook_world *world, const nook_component *with, uint32_t with_count,
                             const nook_component *without, uint32_t without_count, nook_query **out_query);
 void nook_query_free(nook_query *query);
+void nook_query_remove(nook_world *world, nook_query *query); /* of the world's, and frees it; NULL is allowed */
 
 /* command_buffer.c */
 nook_result nook_commands_apply(nook_commands *commands);

@@ -98,6 +98,15 @@ void nook_query_free(nook_query *query)
     free(query);
 }
 
+void nook_query_remove(nook_world *world, nook_query *query)
+{
+    for (uint32_t i = 0; i < world->query_count; i++) {
+        if (world->queries[i] == query)
+            world->queries[i] = world->queries[--world->query_count];
+    }
+    nook_query_free(query);
+}
+
 /* ---- walking ---- */
 
 nook_query_walk nook_query_begin(nook_world *world, const nook_query *query)

@@ -3,13 +3,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const nook_system_entry *find_system(const nook_world *world, const char *name)
+/* @return its place in the order of adding, or NOOK_INDEX_NONE */
+static uint32_t find_system(const nook_world *world, const char *name)
 {
     for (uint32_t i = 0; i < world->system_count; i++) {
         if (strcmp(world->systems[i]->system.name, name) == 0)
-            return world->systems[i];
+            return i;
     }
-    return NULL;
+    return NOOK_INDEX_NONE;
 }
 
 /* ---- what a system declares ---- */
@@ -94,10 +95,10 @@ static bool conflicts(const nook_system_entry *a, const nook_system_entry *b)
 
 /* The first batch behind everything earlier that it conflicts with. Systems of one batch never conflict: of two that do,
  * the later one was put behind. So any order within batches gives what the order of adding gives. */
-static uint32_t choose_batch(const nook_world *world, const nook_system_entry *entry)
+static uint32_t choose_batch(const nook_world *world, const nook_system_entry *entry, uint32_t place)
 {
     uint32_t batch = 0;
-    for (uint32_t i = 0; i < world->system_count; i++) {
+    for (uint32_t i = 0; i < place; i++) {
         const nook_system_entry *earlier = world->systems[i];
         if (earlier->system.phase == entry->system.phase && earlier->batch >= batch && conflicts(earlier, entry))
             batch = earlier->batch + 1;
@@ -105,36 +106,66 @@ static uint32_t choose_batch(const nook_world *world, const nook_system_entry *e
     return batch;
 }
 
-/* ---- public ---- */
-
-nook_result nook_world_add_system(nook_world *world, const nook_system *system)
+/* @return why not; *out_entry is untouched then */
+static nook_result make_entry(nook_world *world, const nook_system *system, nook_system_entry **out_entry)
 {
     assert(world->locks == 0 && system->name && system->run && system->phase < NOOK_PHASE_COUNT);
-    assert(!find_system(world, system->name) && "a system of this name was added before");
-    nook_system_entry **systems = nook_ecs_grow(world->systems, &world->system_capacity,
-                                                (uint64_t)world->system_count + 1, sizeof(nook_system_entry *));
-    if (!systems)
-        return nook_fail(NOOK_E_MEMORY, "system %s: no memory for one more", system->name);
-    world->systems = systems;
     nook_system_entry *entry = calloc(1, sizeof *entry);
     if (!entry)
         return nook_fail(NOOK_E_MEMORY, "system %s: no memory for one more", system->name);
     entry->system = *system;
     nook_result result = declare(world, entry);
-    if (result != NOOK_OK) {
+    if (result == NOOK_OK)
+        *out_entry = entry;
+    else
         free(entry);
+    return result;
+}
+
+/* ---- public ---- */
+
+nook_result nook_world_add_system(nook_world *world, const nook_system *system)
+{
+    assert(find_system(world, system->name) == NOOK_INDEX_NONE && "a system of this name was added before");
+    nook_system_entry **systems = nook_ecs_grow(world->systems, &world->system_capacity,
+                                                (uint64_t)world->system_count + 1, sizeof(nook_system_entry *));
+    if (!systems)
+        return nook_fail(NOOK_E_MEMORY, "system %s: no memory for one more", system->name);
+    world->systems = systems;
+    nook_system_entry *entry;
+    nook_result result = make_entry(world, system, &entry);
+    if (result != NOOK_OK)
         return result;
-    }
-    entry->batch = choose_batch(world, entry);
+    entry->batch = choose_batch(world, entry, world->system_count);
     world->systems[world->system_count++] = entry;
+    return NOOK_OK;
+}
+
+nook_result nook_world_replace_system(nook_world *world, const nook_system *system)
+{
+    uint32_t place = find_system(world, system->name);
+    if (place == NOOK_INDEX_NONE)
+        return nook_fail(NOOK_E_NOT_FOUND, "system %s: was not added to this world", system->name);
+    nook_system_entry *old = world->systems[place], *entry;
+    if (old->system.phase != system->phase)
+        return nook_fail(NOOK_E_VERSION, "system %s: is of another phase than before; start the program again",
+                         system->name);
+    nook_result result = make_entry(world, system, &entry);
+    if (result != NOOK_OK)
+        return result;
+    world->systems[place] = entry;
+    nook_query_remove(world, old->query);
+    free(old);
+    for (uint32_t i = place; i < world->system_count; i++) /* those behind it may touch what it touches now */
+        world->systems[i]->batch = choose_batch(world, world->systems[i], i);
     return NOOK_OK;
 }
 
 nook_result nook_world_system_batch(const nook_world *world, const char *name, uint32_t *out_batch)
 {
-    const nook_system_entry *entry = find_system(world, name);
-    if (!entry)
+    uint32_t place = find_system(world, name);
+    if (place == NOOK_INDEX_NONE)
         return nook_fail(NOOK_E_NOT_FOUND, "system %s: was not added to this world", name);
-    *out_batch = entry->batch;
+    *out_batch = world->systems[place]->batch;
     return NOOK_OK;
 }

@@ -47,6 +47,14 @@ typedef struct nook_system {
  */
 nook_result nook_world_add_system(nook_world *world, const nook_system *system);
 
+/**
+ * Puts a system into the place of the one of its name, for code that was loaded anew: the old one's function, name and types
+ * are not used any more. It may touch other types than the old one.
+ * @return NOOK_E_NOT_FOUND no system of that name, or a resource that the world has not been given; NOOK_E_VERSION a type of another size,
+ *         or another phase; NOOK_E_MEMORY; the old one stays then
+ */
+nook_result nook_world_replace_system(nook_world *world, const nook_system *system);
+
 /** Runs all systems of a phase. @return NOOK_E_MEMORY not all changes that systems asked for could be made */
 nook_result nook_world_run_phase(nook_world *world, nook_phase phase);
 

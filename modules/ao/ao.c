@@ -1,8 +1,6 @@
 #include "engine/core/log.h"
 #include "modules/ao/ao_internal.h"
 #include "modules/ao/frame_block_internal.h"
-#include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -53,8 +51,7 @@ nook_result nook_ao_create(const nook_ao_desc *desc, nook_ao **out_ao)
         return nook_fail(NOOK_E_MEMORY, "nook_ao: no memory");
     ao->gpu = desc->gpu;
     ao->width = desc->width, ao->height = desc->height;
-    ao->progress = desc->progress ? desc->progress : no_progress;
-    ao->progress_user = desc->progress_user;
+    nook_ao_set_progress(ao, desc->progress, desc->progress_user);
     ao->occluder_max = desc->max_occluders ? desc->max_occluders : AO_OCCLUDER_DEFAULT;
     ao->next_mesh_id = 1;
     nook_param_reset(ao_shared_table, NOOK_COUNT(ao_shared_table), &ao->shared);
@@ -69,21 +66,12 @@ nook_result nook_ao_create(const nook_ao_desc *desc, nook_ao **out_ao)
     return NOOK_OK;
 }
 
-static void release_slot(nook_ao *ao, ao_slot *slot)
-{
-    if (slot->technique->destroy)
-        slot->technique->destroy(slot->state, ao->gpu);
-    nook_buffer_destroy(ao->gpu, &slot->buffer);
-    free(slot->state);
-    free(slot->params);
-}
-
 void nook_ao_destroy(nook_ao *ao)
 {
     if (!ao)
         return;
     for (uint32_t i = 0; i < ao->slot_count; i++)
-        release_slot(ao, &ao->slots[i]);
+        ao_slot_release(ao, &ao->slots[i]);
     ao_targets_release(ao->gpu, &ao->targets);
     volume_atlas_release(&ao->atlas);
     ao_meshes_release(ao);
@@ -105,61 +93,10 @@ nook_result nook_ao_set_size(nook_ao *ao, uint32_t width, uint32_t height)
     return result;
 }
 
-/** A std140 block's size is a multiple of 16, and a buffer must cover the whole block. */
-static size_t block_size(size_t size)
+void nook_ao_set_progress(nook_ao *ao, void (*progress)(void *user, double fraction), void *user)
 {
-    return size ? (size + 15) / 16 * 16 : 16;
-}
-
-/** Its name is the first part of its parameters' names: it must be told from the others and from "ao". */
-static nook_result check_name(const nook_ao *ao, const char *name)
-{
-    int taken = strcmp(name, "ao") == 0;
-    for (uint32_t i = 0; i < ao->slot_count; i++)
-        taken = taken || strcmp(ao->slots[i].technique->name, name) == 0;
-    if (taken || !*name || name[strspn(name, "abcdefghijklmnopqrstuvwxyz0123456789_")])
-        return nook_fail(NOOK_E_ARG, "technique \"%s\": the name is taken, or not of a-z, 0-9 and _", name);
-    return NOOK_OK;
-}
-
-/** A shader that was read after its params.def has changed must not meet the struct of before. */
-static nook_result expect_params(nook_ao *ao, const nook_ao_technique *technique)
-{
-    char path[128];
-    snprintf(path, sizeof path, "modules/ao_%s/params.def", technique->name);
-    return nook_gpu_expect_params(ao->gpu, path, technique->params, technique->param_count);
-}
-
-nook_result nook_ao_add_technique(nook_ao *ao, const struct nook_ao_technique *technique)
-{
-    if (technique->version != NOOK_AO_TECHNIQUE_VERSION)
-        return nook_fail(NOOK_E_VERSION, "technique %s: made for version %u, this build takes %d", technique->name,
-                         technique->version, NOOK_AO_TECHNIQUE_VERSION);
-    if (ao->slot_count == AO_TECHNIQUE_MAX)
-        return nook_fail(NOOK_E_MEMORY, "technique %s: %d techniques are the most", technique->name, AO_TECHNIQUE_MAX);
-    nook_result result = check_name(ao, technique->name);
-    if (result != NOOK_OK)
-        return result;
-    ao_slot slot = { .technique = technique };
-    slot.state = calloc(1, technique->state_size ? technique->state_size : 1);
-    slot.params = calloc(1, block_size(technique->params_size));
-    result = slot.state && slot.params ? NOOK_OK : nook_fail(NOOK_E_MEMORY, "technique %s: no memory", technique->name);
-    if (result == NOOK_OK) {
-        nook_param_reset(technique->params, technique->param_count, slot.params);
-        result = nook_buffer_create(ao->gpu, slot.params, block_size(technique->params_size), &slot.buffer);
-    }
-    if (result == NOOK_OK)
-        result = expect_params(ao, technique);
-    if (result == NOOK_OK && technique->create)
-        result = technique->create(slot.state, ao->gpu);
-    if (result != NOOK_OK) {
-        nook_buffer_destroy(ao->gpu, &slot.buffer);
-        free(slot.state);
-        free(slot.params);
-        return result;
-    }
-    ao->slots[ao->slot_count++] = slot;
-    return NOOK_OK;
+    ao->progress = progress ? progress : no_progress;
+    ao->progress_user = user;
 }
 
 nook_result nook_ao_add_volume(nook_ao *ao, const char *name, const void *bytes, size_t size,

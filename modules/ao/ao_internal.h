@@ -89,6 +89,8 @@ struct nook_ao {
     uint32_t scale;     /**< Of the last record: its exponent. */
 };
 
+void ao_slot_release(nook_ao *ao, ao_slot *slot); /**< By its technique's code. */
+
 /**
  * Makes the textures fit width, height and a scale; keeps them when they do.
  * @param scale  0, 1, 2: its exponent

@@ -91,6 +91,20 @@ nook_result nook_ao_set_size(nook_ao *ao, uint32_t width, uint32_t height);
 nook_result nook_ao_add_technique(nook_ao *ao, const struct nook_ao_technique *technique);
 
 /**
+ * Puts a technique into the place of the one of its name, whose code was loaded anew. Both must be loaded; the old one is not
+ * used afterwards. Parameters keep their values by name, brought into their range; the shaders are made anew when
+ * rows of params.def have changed.
+ * @param keep_state  the state's types are laid out alike: it is kept where state_size and state_version are the same, too. Else the
+ *                    old code destroys it and the new one creates its own.
+ * @return NOOK_E_NOT_FOUND no technique of that name; NOOK_E_VERSION; NOOK_E_MEMORY, NOOK_E_DEVICE or why its create failed: the old
+ *         one stays as it was
+ */
+nook_result nook_ao_replace_technique(nook_ao *ao, const struct nook_ao_technique *technique, int keep_state);
+
+/** The same for nook_ao_desc.progress: who is told how far a long record is. NULL: nobody. */
+void nook_ao_set_progress(nook_ao *ao, void (*progress)(void *user, double fraction), void *user);
+
+/**
  * Uploads one .nkv file image (docs/volume_format.md).
  * @param name  used in messages
  * @return NOOK_E_FORMAT not a whole volume file; NOOK_E_VERSION bake again; NOOK_E_MEMORY

@@ -1,3 +1,4 @@
+#include "engine/ecs/internal.h"
 #include "engine/ecs/system.h"
 #include "tests/support/abort.h"
 #include "tests/support/log_capture.h"
@@ -379,6 +380,131 @@ static void test_undeclared_access_is_refused_by_assert(void **state)
     assert_true(nook_aborts(misuse_create_from_a_system));
 }
 
+/* ---- systems of code that was loaded anew ---- */
+
+static void move_backwards(const nook_rows *rows)
+{
+    position *p = rows->columns[1];
+    const velocity *v = rows->columns[0];
+    for (uint32_t i = 0; i < rows->count; i++)
+        p[i].x -= v[i].x;
+}
+
+static void move_forwards(const nook_rows *rows)
+{
+    position *p = rows->columns[1];
+    const velocity *v = rows->columns[0];
+    for (uint32_t i = 0; i < rows->count; i++)
+        p[i].x += v[i].x;
+}
+
+static void grow(const nook_rows *rows)
+{
+    position *p = rows->columns[0];
+    for (uint32_t i = 0; i < rows->count; i++)
+        p[i].x *= 10.0;
+}
+
+static const nook_system moves = {
+    .name = "move", .reads = { NOOK_TYPE(velocity) }, .writes = { NOOK_TYPE(position) }, .run = move_forwards
+};
+static const nook_system grows = { .name = "grow", .writes = { NOOK_TYPE(position) }, .run = grow };
+
+static double position_after_a_run(nook_world *world, nook_entity entity)
+{
+    run(world, NOOK_PHASE_UPDATE);
+    position *p = nook_entity_find(world, entity, component_of(world, NOOK_TYPE_OF(position)));
+    return p->x;
+}
+
+static nook_entity make_mover(nook_world *world)
+{
+    nook_entity entity;
+    const nook_component kinds[] = { component_of(world, NOOK_TYPE_OF(position)),
+                                     component_of(world, NOOK_TYPE_OF(velocity)) };
+    assert_int_equal(nook_entity_create(world, kinds, NOOK_COUNT(kinds), 1, &entity), NOOK_OK);
+    assert_int_equal(nook_entity_add(world, entity, kinds[1], &(velocity){ 1.0 }), NOOK_OK);
+    return entity;
+}
+
+static void test_a_system_takes_the_place_of_the_one_of_its_name_in_the_order_too(void **state)
+{
+    (void)state;
+    nook_world *world = make_world(1);
+    nook_entity mover = make_mover(world);
+    char name[] = "move"; /* of code that is gone afterwards */
+    nook_system old = moves, renewed = moves;
+    old.name = name;
+    add(world, &old);
+    add(world, &grows);
+    assert_true(position_after_a_run(world, mover) == 10.0);
+    renewed.run = move_backwards;
+    assert_int_equal(nook_world_replace_system(world, &renewed), NOOK_OK);
+    memset(name, '-', sizeof name - 1);
+    assert_true(position_after_a_run(world, mover) == 90.0); /* (10 - 1) * 10 */
+    uint32_t batch;
+    assert_int_equal(nook_world_system_batch(world, "move", &batch), NOOK_OK);
+    assert_int_equal(batch, 0);
+    nook_world_destroy(world);
+}
+
+static void test_a_system_that_touches_something_else_now_is_scheduled_anew(void **state)
+{
+    (void)state;
+    nook_world *world = make_world(1);
+    nook_entity mover = make_mover(world);
+    nook_system idle = moves;
+    uint32_t batch;
+    memset(idle.reads, 0, sizeof idle.reads);
+    memset(idle.writes, 0, sizeof idle.writes);
+    idle.reads[0] = (nook_type)NOOK_TYPE(velocity);
+    idle.run = grow; /* of nobody's position: its rows are velocities */
+    idle.writes[0] = (nook_type)NOOK_TYPE(colour);
+    add(world, &idle);
+    add(world, &grows);
+    assert_int_equal(nook_world_system_batch(world, "grow", &batch), NOOK_OK);
+    assert_int_equal(batch, 0);
+    assert_int_equal(nook_world_replace_system(world, &moves), NOOK_OK);
+    assert_int_equal(nook_world_system_batch(world, "grow", &batch), NOOK_OK);
+    assert_int_equal(batch, 1);
+    assert_true(position_after_a_run(world, mover) == 10.0);
+    nook_world_destroy(world);
+}
+
+static void test_a_system_that_cannot_take_the_place_leaves_the_old_one(void **state)
+{
+    (void)state;
+    nook_log_capture log;
+    nook_world *world = make_world(1);
+    nook_entity mover = make_mover(world);
+    nook_system other = moves;
+    add(world, &moves);
+    nook_log_capture_begin(&log);
+    assert_int_equal(nook_world_replace_system(world, &grows), NOOK_E_NOT_FOUND);
+    other.phase = NOOK_PHASE_RENDER;
+    assert_int_equal(nook_world_replace_system(world, &other), NOOK_E_VERSION);
+    other = moves;
+    other.run = move_backwards;
+    other.writes[0].size = 4;
+    assert_int_equal(nook_world_replace_system(world, &other), NOOK_E_VERSION);
+    nook_log_capture_end();
+    assert_true(position_after_a_run(world, mover) == 1.0);
+    nook_world_destroy(world);
+}
+
+static void test_systems_replaced_a_thousand_times_leave_one_query(void **state)
+{
+    (void)state;
+    nook_world *world = make_world(1);
+    nook_entity mover = make_mover(world);
+    add(world, &moves);
+    for (int i = 0; i < 1000; i++)
+        assert_int_equal(nook_world_replace_system(world, &moves), NOOK_OK);
+    assert_int_equal(world->query_count, 1);
+    assert_true(position_after_a_run(world, mover) == 1.0);
+    nook_world_destroy(world);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -388,6 +514,10 @@ int main(void)
         cmocka_unit_test(test_systems_share_a_batch_only_when_neither_writes_what_the_other_touches),
         cmocka_unit_test(test_results_are_the_same_on_any_number_of_threads),
         cmocka_unit_test(test_undeclared_access_is_refused_by_assert),
+        cmocka_unit_test(test_a_system_takes_the_place_of_the_one_of_its_name_in_the_order_too),
+        cmocka_unit_test(test_a_system_that_touches_something_else_now_is_scheduled_anew),
+        cmocka_unit_test(test_a_system_that_cannot_take_the_place_leaves_the_old_one),
+        cmocka_unit_test(test_systems_replaced_a_thousand_times_leave_one_query),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -12,6 +12,12 @@ nook_result nook_occluders_set_up(nook_world *world, nook_ao_occluder *items, ui
     return result;
 }
 
+nook_result nook_occluders_renew(nook_world *world)
+{
+    nook_result result = nook_world_replace_system(world, &nook_clear_occluders);
+    return result == NOOK_OK ? nook_world_replace_system(world, &nook_collect_occluders) : result;
+}
+
 static void clear_occluders(const nook_rows *rows)
 {
     nook_occluder_list *list = rows->resources[0];

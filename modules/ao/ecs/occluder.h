@@ -31,6 +31,8 @@ extern const nook_system nook_collect_occluders;
  * @return NOOK_E_VERSION, NOOK_E_MEMORY
  */
 nook_result nook_occluders_set_up(nook_world *world, nook_ao_occluder *items, uint32_t capacity);
+/** Gives a world that has them the systems of this code, which was loaded anew. @return as nook_world_replace_system */
+nook_result nook_occluders_renew(nook_world *world);
 
 #ifdef __cplusplus
 }
