@@ -4,6 +4,7 @@
 #include <string.h>
 
 static const nook_overlay_colour white = { 255, 255, 255, 255 }, gold = { 255, 214, 120, 255 };
+static const nook_overlay_colour red = { 255, 110, 90, 255 };
 static const nook_overlay_colour soft = { 255, 255, 255, 150 };
 
 /* A label whose middle is at (x, y). */
@@ -58,6 +59,28 @@ static void draw_state(const nook_play_window *window, const nook_session_view *
     }
 }
 
+/* Lines of text from (x, y) down, in red. @return where the next line would stand */
+static double draw_lines(nook_overlay *overlay, double x, double y, const char *text)
+{
+    char line[256];
+    for (const char *at = text; *at;) {
+        size_t length = strcspn(at, "\n");
+        snprintf(line, sizeof line, "%.*s", (int)length, at);
+        y += nook_overlay_label(overlay, (double[]){ x, y }, red, line);
+        at += length + (at[length] == '\n');
+    }
+    return y;
+}
+
+/* What is wrong with shaders and code that were saved: what runs is what was good last. */
+static void draw_troubles(const nook_play_window *window)
+{
+    double letter = nook_overlay_letter_height(window->overlay), y = 6.0 * letter;
+    if (window->shaders)
+        y = draw_lines(window->overlay, 0.8 * letter, y, nook_shader_reload_status(window->shaders)->error);
+    draw_lines(window->overlay, 0.8 * letter, y, window->trouble);
+}
+
 void nook_play_draw_hud(nook_play_window *window)
 {
     nook_overlay *overlay = window->overlay;
@@ -67,6 +90,7 @@ void nook_play_draw_hud(nook_play_window *window)
     draw_cross(overlay, middle[0], middle[1], *view.looked_at || *view.carried);
     draw_hint(overlay, &view, middle[0], middle[1] + 3.0 * line);
     draw_state(window, &view);
+    draw_troubles(window);
     if (*view.message)
         label_around(overlay, middle[0], window->height - 2.5 * line,
                      view.status == NOOK_SESSION_PLAYING ? white : gold, view.message);

@@ -77,6 +77,8 @@ static nook_result begin(nook_play_window *w, const char *cache)
     nook_camera camera = camera_of(w, 1.0);
     result = nook_stage_expose(&w->stage, &camera);
     if (w->has_window) {
+        if (nook_shader_reload_create(w->stage.gpu, &w->shaders) != NOOK_OK)
+            nook_log_warning("play: shaders that are saved are not seen before the next start");
         nook_context_show(w->stage.context);
         nook_context_set_fullscreen(w->stage.context, w->preferences.full_screen);
     }
@@ -114,6 +116,7 @@ nook_result nook_play_window_close(nook_play_window *w)
         nook_result written = nook_preferences_write(w->preferences_path, &w->preferences);
         result = result == NOOK_OK ? written : result;
     }
+    nook_shader_reload_destroy(w->shaders);
     nook_overlay_destroy(w->overlay);
     nook_stage_close(&w->stage);
     memset(w, 0, sizeof *w);
@@ -237,6 +240,8 @@ nook_result nook_play_window_frame(nook_play_window *w, bool *out_goes_on)
         w->height = input.height;
     }
     nook_result result = w->paused && !w->restart ? NOOK_OK : run_ticks(w, seconds);
+    if (w->shaders)
+        nook_shader_reload_poll(w->shaders);
     if (result == NOOK_OK && !hidden) {
         result = fit_picture(w);
         if (result == NOOK_OK)

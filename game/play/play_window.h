@@ -10,6 +10,7 @@
  */
 #pragma once
 #include "engine/overlay/overlay.h"
+#include "game/live/shader_reload.h"
 #include "game/play/controls.h"
 #include "game/play/play.h"
 #include "game/settings/settings_file.h"
@@ -46,6 +47,7 @@ typedef struct nook_play_window {
     nook_play play;
     nook_stage stage;
     nook_overlay *overlay;
+    nook_shader_reload *shaders; /**< NULL: they cannot be watched, or nobody looks. */
     nook_settings_file settings;
     nook_controls controls;
     nook_preferences preferences, kept; /**< Now, and as they are on disk. */
@@ -54,6 +56,8 @@ typedef struct nook_play_window {
     double frame_seconds;
     double clock_ms, left; /**< At the last frame; seconds that no tick has used yet. */
     nook_frame_pacing pacing;
+    char trouble
+        [1024]; /**< Yours to set: what is wrong with code that was to be loaded; stands on the screen. "": nothing. */
     nook_play_told told; /**< What the log and the title have said last. */
     bool driven, has_window, paused, help, captured;
     bool quit;              /**< Asked for in the menu or by the window. */
