@@ -2,7 +2,7 @@
 #pragma once
 #include "game/verify/scene.h"
 
-#define NOOK_VERIFY_FIXTURE(row, name, points, picture_points, quick_points, what) \
+#define NOOK_VERIFY_FIXTURE(row, name, points, camera_points, quick_points, what) \
     void nook_verify_make_##name(uint32_t point, double extent, nook_verify_scene *scene);
 #include "game/verify/fixtures.def"
 #undef NOOK_VERIFY_FIXTURE

@@ -70,6 +70,17 @@ static void make_leaning(nook_verify_scene *scene)
                            (double[]){ -0.2, 1.1, 0.3 }, (double[]){ -0.1, 0.4, 1.5 });
 }
 
+/** Level ground from the upper edges of the cube's walls on: for cameras they are the sides of a shaft. */
+static void add_ground_around(nook_verify_scene *scene)
+{
+    for (int side = -1; side <= 1; side += 2) {
+        nook_fixture_add_quad(&scene->ground, (double[]){ side * 0.5, -50, 1 }, (double[]){ side * 50, 0, 0 },
+                              (double[]){ 0, 100, 0 });
+        nook_fixture_add_quad(&scene->ground, (double[]){ -0.5, side * 0.5, 1 }, (double[]){ 1, 0, 0 },
+                              (double[]){ 0, side * 50, 0 });
+    }
+}
+
 void nook_verify_make_polygons(uint32_t point, double extent, nook_verify_scene *scene)
 {
     static const char *const names[] = { "cube, one wall", "cube, all but floor", "cube, ceiling", "cube, four walls",
@@ -83,6 +94,8 @@ void nook_verify_make_polygons(uint32_t point, double extent, nook_verify_scene 
         make_leaning(scene);
     nook_verify_scene_reach_all(scene);
     scene->height_field = point == 0 || point == 3;
+    if (point == 3)
+        add_ground_around(scene);
     bool covered = point == 1 || point == 2;
     nook_verify_scene_camera(scene, covered ? "inside" : "above", (double[]){ 0, 0, covered ? 0.9 : 4 },
                              covered ? 2.2 : 0.8);

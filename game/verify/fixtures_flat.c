@@ -62,8 +62,8 @@ void nook_verify_make_ceiling(uint32_t point, double extent, nook_verify_scene *
                           (double[]){ 0, 2.1, 0 });
     nook_verify_scene_truth(scene, nook_form_ceiling(NOOK_FORM_COSINE, scene->falloff, tau, k),
                             nook_form_ceiling(NOOK_FORM_SOLID_ANGLE, scene->falloff, tau, k));
-    nook_verify_scene_camera(scene, "below it", (double[]){ 0, 0, 0.8 * k }, 1.0);
     nook_verify_scene_camera(scene, "beside", (double[]){ -1.5, 0, 0.5 * k }, 1.2);
+    nook_verify_scene_camera(scene, "below it", (double[]){ 0, 0, 0.8 * k }, 1.0);
 }
 
 /** A hard falloff that cuts nothing: one half at any distance, were the wall infinite. */

@@ -5,8 +5,8 @@
 #include <math.h>
 
 static const nook_verify_fixture fixtures[] = {
-#define NOOK_VERIFY_FIXTURE(row, name, points, picture_points, quick_points, what) \
-    { #name, what, nook_verify_make_##name, row, points, picture_points, quick_points },
+#define NOOK_VERIFY_FIXTURE(row, name, points, camera_points, quick_points, what) \
+    { #name, what, nook_verify_make_##name, row, points, camera_points, quick_points },
 #include "game/verify/fixtures.def"
 #undef NOOK_VERIFY_FIXTURE
 };

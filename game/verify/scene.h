@@ -55,9 +55,9 @@ typedef struct nook_verify_fixture {
     /** Fills a scene whose ground is a floor, r_max 1, falloff hard, tau 3, no cameras. @param point  below `points` */
     void (*make)(uint32_t point, double extent, nook_verify_scene *scene);
     int row;
-    uint32_t points;         /**< Of its parameters. */
-    uint32_t picture_points; /**< The first so many are seen by cameras; ... */
-    uint32_t quick_points;   /**< ... go into a quick run. */
+    uint32_t points;        /**< Of its parameters. */
+    uint32_t camera_points; /**< The first so many are seen by all cameras, the rest by the first; ... */
+    uint32_t quick_points;  /**< ... go into a quick run. */
 } nook_verify_fixture;
 
 /** Rows 1 to 17 that are geometry, in their order. */

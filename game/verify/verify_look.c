@@ -121,8 +121,9 @@ nook_result nook_verify_look_at(const nook_verify_work *w, uint32_t point)
 {
     nook_verify_scene scene;
     nook_result result = NOOK_OK;
+    const size_t cameras = point < w->fixture->camera_points ? NOOK_VERIFY_CAMERAS_MAX : 1;
     nook_verify_scene_make(w->fixture, point, NOOK_VERIFY_PICTURE, &scene);
-    for (size_t k = 0; k < NOOK_VERIFY_CAMERAS_MAX && scene.cameras[k].name && result == NOOK_OK; k++) {
+    for (size_t k = 0; k < cameras && scene.cameras[k].name && result == NOOK_OK; k++) {
         sighting s = { .scene = &scene, .camera = &scene.cameras[k] };
         result = nook_verify_rig_draw(w->rig, &scene, s.camera);
         for (size_t i = 0; result == NOOK_OK && i < w->desc->technique_count; i++) {

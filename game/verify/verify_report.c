@@ -86,17 +86,18 @@ static void print_tallies(FILE *stream, const nook_verify_rows *rows)
     nook_verify_tally tallies[TALLIES];
     size_t count = nook_verify_tally_techniques(rows, tallies, TALLIES);
     if (count > 0)
-        fprintf(stream, "\n%-24s %6s %8s %8s %8s %13s %13s\n", "rows 1 to 17", "checks", "bias", "RMSE", "spread",
-                "initial: bias", "RMSE");
+        fprintf(stream, "\n%-24s %6s %8s %8s %8s %13s %13s %13s\n", "rows 1 to 17", "checks", "bias", "RMSE", "spread",
+                "initial: bias", "RMSE", "largest error");
     for (size_t i = 0; i < count; i++) {
         const nook_verify_tally *t = &tallies[i];
         char name[64];
         snprintf(name, sizeof name, "%s%s", t->technique, t->by_screen ? ", sees=screen" : "");
         fprintf(stream, "  %-22s %6zu %+8.4f %8.4f %8.4f", name, t->checks, t->bias, t->rmse, t->spread);
         if (isnan(t->initial_bias))
-            fprintf(stream, " %13s %13s\n", "-", "-");
+            fprintf(stream, " %13s %13s", "-", "-");
         else
-            fprintf(stream, " %+13.4f %13.4f\n", t->initial_bias, t->initial_rmse);
+            fprintf(stream, " %+13.4f %13.4f", t->initial_bias, t->initial_rmse);
+        fprintf(stream, " %+13.4f, %s\n", t->largest, t->where);
     }
 }
 
@@ -177,6 +178,8 @@ static void write_tallies(nook_json *json, const nook_verify_rows *rows)
         nook_json_member_number(json, "bias", tallies[i].bias);
         nook_json_member_number(json, "rmse", tallies[i].rmse);
         nook_json_member_number(json, "spread", tallies[i].spread);
+        nook_json_member_number(json, "largest_error", tallies[i].largest);
+        nook_json_member_string(json, "largest_error_in", tallies[i].where);
         nook_json_member_number(json, "initial_bias", tallies[i].initial_bias);
         nook_json_member_number(json, "initial_rmse", tallies[i].initial_rmse);
         nook_json_end_object(json);

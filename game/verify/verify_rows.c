@@ -86,6 +86,8 @@ size_t nook_verify_tally_techniques(const nook_verify_rows *rows, nook_verify_ta
         if (!tally)
             continue;
         double error = row->check.measured - row->check.expected, initial = row->initial - row->check.expected;
+        if (!tally->where || fabs(error) > fabs(tally->largest))
+            tally->largest = error, tally->where = row->fixture;
         tally->checks++;
         tally->bias += error, tally->rmse += error * error, tally->spread += row->check.spread * row->check.spread;
         tally->initial_bias += initial, tally->initial_rmse += initial * initial;

@@ -58,6 +58,8 @@ typedef struct nook_verify_tally {
     bool by_screen; /**< The reference, of what one picture holds. */
     size_t checks;
     double bias, rmse, spread;         /**< Of what is judged; the spread is the RMS of all. */
+    double largest;                    /**< Error with the largest amount, with its sign. */
+    const char *where;                 /**< The fixture of it. */
     double initial_bias, initial_rmse; /**< As it comes; NaN: no such thing. */
 } nook_verify_tally;
 

@@ -38,6 +38,17 @@ test_what_techniques_claim_holds_on_planes_pits_walls_and_ceilings() {
     done
 }
 
+# rows_of TECHNIQUE POINT: how many it has there, of the JSON.
+rows_of() { tr -d '\n' <"$tmp/all.json" | sed 's/"row":/\n&/g' | grep "\"point\": \"$2\".*\"technique\": \"$1\"" | wc -l; }
+
+test_every_point_of_a_fixture_goes_to_every_technique() {
+    local point
+    verify --fixtures wall --techniques gtao --json >"$tmp/all.json"
+    for point in 'k 0.3, hard' 'k 0.1, quadratic' 'k 0.3, wendland' 'k 0.6, wendland' 'x 0.25, r_max beyond all'; do
+        [ "$(rows_of gtao "$point")" -eq 2 ] # from above and oblique
+    done
+}
+
 test_the_volumes_own_checks_and_the_filter_hold() {
     verify --quick --techniques volume,filter --fixtures 19,20 >"$tmp/own"
     assert_holds "$(cat "$tmp/own")" 'C9: steps beside a thin layer'
