@@ -4,14 +4,6 @@ cd "${NOOK_ROOT:-$PWD}" || exit 1
 source tests/support/shell.sh
 source tests/support/window.sh
 
-copy_root() {
-    rm -rf "$tmp/root"
-    mkdir -p "$tmp/root/modules"
-    cp -r shaders "$tmp/root/"
-    cp -r modules/ao_* "$tmp/root/modules/"
-    export root=$tmp/root
-}
-
 test_saved_shader_is_seen_broken_one_is_in_the_title_and_the_mended_one_is_seen() {
     copy_root
     in_window '

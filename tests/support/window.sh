@@ -31,14 +31,14 @@ with_display() {
     return $code
 }
 
-# in_window SCRIPT [OPTION...]: runs it beside `nook compare $crate`, with its window in $window; the program must end with exit code 0.
-in_window() {
+# in_window_of TITLE SCRIPT OPTION...: runs the script beside `nook OPTION...`, with its window, whose title begins with TITLE, in
+# $window and the program in $program_id; the program must end with exit code 0 when the script has ended.
+in_window_of() {
     need_display
-    export script=$1
-    shift
+    export title=$1 script=$2
+    shift 2
     with_display bash -euc '
-        NOOK_ROOT=$root "$program" compare "$crate" --size 320x200 --frames 1 --reference-rays 4 --cache "$tmp/cache" --out "$tmp/out" "$@" \
-            >"$tmp/table" 2>"$tmp/log" &
+        NOOK_ROOT=$root "$program" "$@" >"$tmp/table" 2>"$tmp/log" &
         program_id=$!
         wait_for() { # SECONDS COMMAND...
             local tries=$(($1 * 5))
@@ -49,15 +49,33 @@ in_window() {
                 sleep 0.2
             done
         }
-        find_window() { window=$(xdotool search --onlyvisible --name "^Nook - crate" 2>/dev/null | head -n 1) && [ -n "$window" ]; }
+        find_window() { window=$(xdotool search --onlyvisible --name "^$title" 2>/dev/null | head -n 1) && [ -n "$window" ]; }
         title_has() { xdotool getwindowname "$window" | grep -q -- "$1"; }
+        log_has() { grep -q -- "$1" "$tmp/log"; }
         pixel() { import -window "$window" png:- | convert png:- -crop 1x1+"$1"+"$2" -format "%[hex:u.p{0,0}]" info:; } # X Y: its colour
         has_pixel() { [ "$(pixel "$1" "$2")" = "$3" ]; }
-        hold() { xdotool keydown --window "$window" "$1"; sleep 0.4; xdotool keyup --window "$window" "$1"; }
+        hold() { xdotool keydown --window "$window" "$1"; sleep "${2:-0.4}"; xdotool keyup --window "$window" "$1"; } # KEY [SECONDS]
         press() { xdotool key --window "$window" "$1"; }
         wait_for 120 find_window
         eval "$script"
-        xdotool keydown --window "$window" Escape # no release: the window is gone by then
         wait $program_id
-    ' in_window "$@"
+    ' in_window_of "$@"
+}
+
+# in_window SCRIPT [OPTION...]: beside `nook compare $crate`; Escape ends it.
+in_window() {
+    local beside=$1
+    shift
+    in_window_of "Nook - crate" "$beside
+        xdotool keydown --window \$window Escape # no release: the window is gone by then" \
+        compare "$crate" --size 320x200 --frames 1 --reference-rays 4 --cache "$tmp/cache" --out "$tmp/out" "$@"
+}
+
+# A copy of what the program reads while it runs, for tests that edit it: never that of the sources.
+copy_root() {
+    rm -rf "$tmp/root"
+    mkdir -p "$tmp/root/modules"
+    cp -r shaders "$tmp/root/"
+    cp -r modules/ao_* "$tmp/root/modules/"
+    export root=$tmp/root
 }

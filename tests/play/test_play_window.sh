@@ -1,0 +1,79 @@
+#!/usr/bin/env bash
+# A game in a window under Xvfb: keys, pictures, and the state that they lead to.
+cd "${NOOK_ROOT:-$PWD}" || exit 1
+source tests/support/shell.sh
+source tests/support/window.sh
+level=tests/play/data/crate.level
+
+# in_game SCRIPT [OPTION...]: beside `nook play $level`; an interrupt ends it.
+in_game() {
+    local beside=$1
+    shift
+    in_window_of "Nook - One crate" "xdotool windowfocus --sync \$window; sleep 0.5
+        $beside
+        kill -INT \$program_id" \
+        play "$level" --size 320x200 --cache "$tmp/cache" --record "$tmp/played.replay" "$@"
+}
+
+test_keys_walk_take_and_let_go_and_the_recording_replays_to_the_same_state() {
+    rm -f "$tmp/played.replay"
+    in_game '
+        import -window "$window" "$tmp/before.png"
+        press e; wait_for 30 title_has "carrying crate"
+        hold s 0.6
+        press e; wait_for 30 log_has "let go of crate"
+        hold w 0.3; sleep 0.5
+        import -window "$window" "$tmp/after.png"'
+    ! cmp -s "$tmp/before.png" "$tmp/after.png"
+    grep -q 'took crate' "$tmp/log"
+    grep -q '^[0-9]* 0 -127 ' "$tmp/played.replay" # walked backwards
+    local in_window
+    in_window=$(tail -n 1 "$tmp/table")
+    assert_holds "$in_window" ", hash "
+    [ "$("$program" play --headless --replay "$tmp/played.replay" | tail -n 1)" = "$in_window" ]
+}
+
+test_escape_pauses_the_menu_takes_the_mouse_and_escape_goes_on() {
+    in_game '
+        press Escape; wait_for 30 title_has paused
+        ticks=$(date +%s); hold w 0.5
+        press F1
+        sleep 0.5; import -window "$window" "$tmp/menu.png"
+        press Escape; wait_for 30 log_has "play: goes on"
+        ! title_has paused'
+    ! grep -q '^[0-9]* 0 127 ' "$tmp/played.replay" # nothing walks while it is paused
+}
+
+test_preferences_last_from_one_game_to_the_next() {
+    rm -f "$tmp/cache/preferences.txt"
+    in_game 'press F11; sleep 1; press F11; press Escape; wait_for 30 title_has paused'
+    [ ! -e "$tmp/cache/preferences.txt" ] # as it was
+    in_game 'press F11; sleep 1'
+    grep -q '^full_screen = yes' "$tmp/cache/preferences.txt"
+    in_game 'wait_for 30 eval "xdotool getwindowgeometry $window | grep -q 800x600"'
+    rm "$tmp/cache/preferences.txt"
+}
+
+test_a_saved_shader_is_seen_in_the_game_a_broken_one_is_said_and_the_mended_one_is_seen() {
+    copy_root
+    in_game '
+        shader=$root/shaders/render/view.frag.glsl
+        sed -i "s/image = vec4(colour, 1.0)/image = vec4(1.0, 0.0, 1.0, 1.0)/" "$shader"
+        wait_for 30 has_pixel 310 190 FF00FF
+        echo "float broken = no_such_name;" >>"$shader"
+        wait_for 30 log_has "shaders/render/view.frag.glsl:.*no_such_name"
+        has_pixel 310 190 FF00FF
+        import -window "$window" "$tmp/error.png"
+        sed -i "/no_such_name/d; s/vec4(1.0, 0.0, 1.0, 1.0)/vec4(0.0, 1.0, 0.0, 1.0)/" "$shader"
+        wait_for 30 has_pixel 310 190 00FF00'
+    # the message stands on the magenta picture in red letters
+    [ "$(convert "$tmp/error.png" -fill black +opaque 'rgb(255,110,90)' -format '%[fx:mean > 0 ? 1 : 0]' info:)" = 1 ]
+}
+
+test_without_a_display_one_line_says_what_to_give() {
+    local said
+    said=$(unset DISPLAY WAYLAND_DISPLAY; assert_fails 1 "$program" play "$level" --cache "$tmp/cache")
+    assert_holds "$said" "there is no display to play on; give --replay or --pilot"
+}
+
+run_tests
