@@ -135,6 +135,7 @@ static nook_result fill(nook_game_world *world, nook_scene_volumes *baked)
     for (uint32_t i = 0; i < baked->volume_count && result == NOOK_OK; i++) {
         describe_volume(&baked->volumes[i], &world->volumes[i]);
         result = upload(world->ao, &baked->volumes[i], &world->uploaded[i]);
+        world->volumes[i].occluder = world->uploaded[i];
         nook_scene_volume_release(&baked->volumes[i]); /* the AO has its own copy; two of all are much memory */
     }
     if (result == NOOK_OK)
@@ -246,6 +247,14 @@ const nook_draw *nook_game_world_draws(const nook_game_world *world, size_t *out
     const nook_draw_list *list = nook_world_resource(world->entities, &type);
     *out_count = list->count;
     return list->items;
+}
+
+const nook_ao_occluder *nook_game_world_occluders(const nook_game_world *world, uint32_t *out_count)
+{
+    const nook_type type = NOOK_TYPE(nook_occluder_list);
+    const nook_occluder_list *list = nook_world_resource(world->entities, &type);
+    *out_count = list ? list->count : 0;
+    return list ? list->items : NULL;
 }
 
 const nook_world_volume *nook_game_world_volumes(const nook_game_world *world, uint32_t *out_count)

@@ -26,6 +26,7 @@ typedef struct nook_world_volume {
     uint64_t bytes;                /**< Of voxels, as they are on the GPU. */
     uint64_t file_bytes;           /**< Of its .nkv file. */
     uint32_t instances;            /**< Bodies that it stands for. */
+    nook_volume_occluder occluder; /**< Its ids in the AO. */
     double bake_ms;                /**< Wall time of baking, or of reading it from the cache. */
     bool cached;
 } nook_world_volume;
@@ -57,4 +58,6 @@ nook_result nook_game_world_update(nook_game_world *world, nook_ao *ao);
 
 /** What the last update collected; valid until the next. */
 const nook_draw *nook_game_world_draws(const nook_game_world *world, size_t *out_count);
+/** What it submitted to the AO; valid until the next. */
+const nook_ao_occluder *nook_game_world_occluders(const nook_game_world *world, uint32_t *out_count);
 const nook_world_volume *nook_game_world_volumes(const nook_game_world *world, uint32_t *out_count);

@@ -177,6 +177,18 @@ nook_result nook_setting_assign(const char *where, nook_setting *setting, const 
     return NOOK_OK;
 }
 
+const nook_param *nook_setting_param_at(const nook_ao_technique *technique, size_t index, bool *out_shared)
+{
+    const nook_param *param;
+    for (size_t i = 0; (param = param_at(technique, i, out_shared)); i++) {
+        if (*out_shared && !is_choice(param))
+            continue;
+        if (index-- == 0)
+            return param;
+    }
+    return NULL;
+}
+
 /* ---- Text ------------------------------------------------------------------------------------------------------- */
 
 /* Cuts the next word off `*at`. @return false when there is none; *at is past the word */

@@ -49,6 +49,12 @@ const char *nook_setting_print(const nook_setting *setting, char *out);
 /** One value as the text form has it: a choice's name, or the fewest digits that read back as the same number. @return out */
 const char *nook_setting_value(const nook_setting_param *entry, char out[NOOK_SETTING_VALUE_MAX]);
 
+/**
+ * What a setting of a technique may hold, for menus: the technique's rows, then those of the shared table that are choices.
+ * @return NULL past the end
+ */
+const nook_param *nook_setting_param_at(const struct nook_ao_technique *technique, size_t index, bool *out_shared);
+
 /** The value of a row of the technique's or the shared table: what the setting says, else the initial one. */
 double nook_setting_get(const nook_setting *setting, const nook_param *param);
 

@@ -74,8 +74,8 @@ typedef struct nook_ao_frame {
     nook_rectangle part;
     /** 1: depth, normals and both matrices are those of the last record, which are not read again. */
     int same_view;
-    /** R32UI of the full size, cleared by the host; none: not counted. NOOK_AO_FETCH_UNITS for every texture fetch of a pixel are
-        added to it; those of a pixel of a coarser trace are shared out to the full-size pixels that it stands for. Slower. */
+    /** R32UI of the full size, cleared by the host; none: not counted. NOOK_AO_FETCH_UNITS for every texture fetch of a pixel of
+        the part are added to it; those of a pixel of a coarser trace are shared out to the full-size pixels that it stands for. Slower. */
     nook_ao_texture fetches;
 } nook_ao_frame;
 

@@ -41,6 +41,18 @@ nook_rgb nook_error_colour(float error, float range)
     return from_oklab(lightness_zero + (lightness_full - lightness_zero) * t, chroma * cosf(hue), chroma * sinf(hue));
 }
 
+nook_rgb nook_amount_colour(float share)
+{
+    /* The hue turns from blue through red to yellow while lightness rises; chroma is largest in the middle, within sRGB. */
+    static const float lightness_low = 0.15f, lightness_high = 0.97f, chroma_middle = 0.15f;
+    static const float hue_low = -1.40f, hue_high = 1.75f; /* radians in OKLab */
+    if (isnan(share))
+        return (nook_rgb){ 0, 255, 0 };
+    float t = glm_clamp_zo(share);
+    float chroma = chroma_middle * 4.0f * t * (1.0f - t) + 0.02f, hue = hue_low + (hue_high - hue_low) * t;
+    return from_oklab(lightness_low + (lightness_high - lightness_low) * t, chroma * cosf(hue), chroma * sinf(hue));
+}
+
 nook_rgb nook_error_no_geometry(void)
 {
     return (nook_rgb){ 200, 200, 200 };

@@ -18,6 +18,12 @@ extern "C" {
 /** @param error  visibility - reference @param range  > 0; errors beyond +-range are clamped. NaN gives magenta */
 nook_rgb nook_error_colour(float error, float range);
 
+/**
+ * Amounts (counts, costs) as colours: from near black over violet and orange to near white, lightness rising evenly, in OKLab.
+ * @param share  of the strongest; clamped to [0, 1]. NaN gives green
+ */
+nook_rgb nook_amount_colour(float share);
+
 /** What stands where there is no geometry: a grey that the map never gives. */
 nook_rgb nook_error_no_geometry(void);
 

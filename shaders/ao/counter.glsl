@@ -38,13 +38,13 @@ float bounded(float visibility)
     return clamp(visibility, 0.0, 1.0);
 }
 
-// No two invocations of a dispatch share a pixel.
+// Only of pixels that are wanted. No two invocations of a dispatch share one.
 void add_to_pixels(ivec2 first, int side)
 {
-    ivec2 end = min(first + side, frame.full_size);
+    ivec2 begin = max(first, frame.full_begin), end = min(first + side, frame.full_end);
     uint share = fetches * FETCH_UNITS / uint(side * side);
-    for (int y = first.y; y < end.y; y++) {
-        for (int x = first.x; x < end.x; x++)
+    for (int y = begin.y; y < end.y; y++) {
+        for (int x = begin.x; x < end.x; x++)
             imageStore(fetch_image, ivec2(x, y), uvec4(imageLoad(fetch_image, ivec2(x, y)).r + share));
     }
 }

@@ -1,0 +1,66 @@
+/**
+ * live.h - techniques side by side on a running picture: views, their modes, panels over them, messages, pictures of it.
+ *
+ *   create -> every frame: input -> (the host moves its world) -> draw -> present -> destroy
+ *
+ * All that it keeps is plain memory without pointers into code or tables of code, so that both may be reloaded between two frames.
+ * Keys: nook_live_help lists them. What they, the mouse and the panels do not use is left for the host.
+ */
+#pragma once
+#include "engine/overlay/overlay.h"
+#include "game/live/live_views.h"
+#include "game/stage.h"
+
+typedef struct nook_live nook_live;
+
+typedef struct nook_live_desc {
+    nook_stage *stage;           /**< Filled; outlives it. Its AO's r_max and falloff are taken over. */
+    const nook_setting *setting; /**< Of the first view; NULL: the AO's first technique as it comes. */
+    const char *settings_path;   /**< Where "save" writes; NULL: "nook.settings". Copied. */
+    const char *pictures;        /**< Folder of the pictures that F12 takes; NULL: the working directory. Copied. */
+    const char *notes;           /**< Lines for the text beside them (level, seed); NULL: none. Copied. */
+} nook_live_desc;
+
+/** @return NOOK_E_MEMORY, NOOK_E_DEVICE, NOOK_E_NOT_FOUND (a shader); *out_live is NULL then */
+nook_result nook_live_create(const nook_live_desc *desc, nook_live **out_live);
+void nook_live_destroy(nook_live *live); /**< NULL is allowed. Before the stage is closed. */
+
+/** Views and all that undo takes back. May be written between frames. */
+nook_live_views *nook_live_state(nook_live *live);
+
+/**
+ * Takes the keys and the mouse of a frame.
+ * @param input    of the window that nook_live_present draws to
+ * @param pointer  the mouse is seen; false: it is captured, and only the host's
+ * @param out_rest what is left for the host: without what was used. May be `input` itself.
+ */
+void nook_live_input(nook_live *live, const nook_input *input, bool pointer, nook_input *out_rest);
+/** Something on the screen wants to be clicked: show the mouse. */
+bool nook_live_wants_pointer(const nook_live *live);
+/** For the host's own widgets of this frame; between input and draw. */
+nook_overlay *nook_live_overlay(nook_live *live);
+
+/**
+ * Draws the views of a frame into the stage's image: G-buffer once, each view's AO and light. While the camera is frozen it draws
+ * what was frozen, and only when something about it has changed.
+ * @return why not; NOOK_E_DEVICE: GL raised an error
+ */
+nook_result nook_live_draw(nook_live *live, const nook_camera *camera);
+/** Copies the picture to the window's framebuffer, stretched, with the overlay over it; the context's present shows it. */
+nook_result nook_live_present(nook_live *live, uint32_t width, uint32_t height);
+/** The same into memory: RGB, top row first. @param out_rgb width * height * 3 bytes @return NOOK_E_MEMORY, NOOK_E_RANGE, NOOK_E_DEVICE */
+nook_result nook_live_picture(nook_live *live, uint32_t width, uint32_t height, uint8_t *out_rgb);
+
+enum { NOOK_LIVE_MESSAGES_MAX = 6, NOOK_LIVE_MESSAGE_SIZE = 1024 };
+
+/**
+ * A line or more in red at the top, until it is "". One for each sender; with NOOK_LIVE_MESSAGES_MAX senders further ones are left out.
+ * @param from  "shaders", "game", ...; it stands before the text
+ */
+void nook_live_message(nook_live *live, const char *from, const char *text);
+
+/** What a key does. */
+typedef struct nook_live_key {
+    const char *key, *what;
+} nook_live_key;
+const nook_live_key *nook_live_help(size_t *out_count);

@@ -1,0 +1,188 @@
+/* One frame: the G-buffer once, then of each view its AO and its part of the image. */
+#include "game/live/live_internal.h"
+#include "modules/ao/technique.h"
+#include <string.h>
+
+/* ---- The G-buffer ------------------------------------------------------------------------------------------------- */
+
+static nook_result draw_gbuffer(nook_live *live, const nook_camera *camera)
+{
+    nook_stage *stage = live->stage;
+    live_times_begin(live, LIVE_PASS_WORLD);
+    nook_result result = nook_stage_update(stage, camera);
+    live_times_end(live, LIVE_PASS_WORLD);
+    if (result != NOOK_OK)
+        return result;
+    live_times_begin(live, LIVE_PASS_SHADOW);
+    result = nook_frame_shadow(stage->renderer, &stage->frame);
+    live_times_end(live, LIVE_PASS_SHADOW);
+    if (result != NOOK_OK)
+        return result;
+    live_times_begin(live, LIVE_PASS_GBUFFER);
+    nook_frame_gbuffer(stage->renderer, &stage->frame);
+    live_times_end(live, LIVE_PASS_GBUFFER);
+    live->camera = *camera;
+    live->frame_width = stage->width, live->frame_height = stage->height;
+    live->view_recorded = false;
+    live->stale = true;
+    return nook_stage_check(stage, "the G-buffer");
+}
+
+/* ---- The views ---------------------------------------------------------------------------------------------------- */
+
+/* A mode that counts gets its image empty. */
+static nook_result bind_counts(nook_live *live, uint32_t view, nook_ao_frame *frame)
+{
+    static const uint32_t zero = 0;
+    if (live->views.views[view].mode != NOOK_LIVE_FETCHES)
+        return NOOK_OK;
+    nook_result result = live_fit_counts(live);
+    const nook_rectangle *part = &live->places[view];
+    const nook_texture *counts = &live->targets.counts;
+    if (result != NOOK_OK)
+        return result;
+    live->stage->gpu->gl->ClearTexSubImage(counts->id, 0, (GLint)part->x, (GLint)part->y, 0, (GLsizei)part->width,
+                                           (GLsizei)part->height, 1, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
+    frame->fetches = (nook_ao_texture){ counts->id, counts->width, counts->height };
+    frame->same_view = 0; /* what is read once for all views belongs to each */
+    return NOOK_OK;
+}
+
+static nook_result record_view(nook_live *live, uint32_t view, const nook_setting *setting)
+{
+    nook_ao_frame frame = nook_stage_ao_frame(live->stage);
+    const nook_rectangle all = { 0 };
+    frame.part = live->views.count == 1 ? all : live->places[view];
+    frame.same_view = live->view_recorded;
+    live_times_begin(live, (live_pass)(LIVE_PASS_AO + view));
+    nook_result result = bind_counts(live, view, &frame);
+    if (result == NOOK_OK)
+        result = live_apply(live, setting);
+    if (result == NOOK_OK)
+        result = nook_ao_record(live->stage->ao, &frame);
+    live_times_end(live, (live_pass)(LIVE_PASS_AO + view));
+    live->view_recorded = result == NOOK_OK;
+    return result;
+}
+
+/* @param out_visibility  of the view; id 0: all open */
+static nook_result occlude_view(nook_live *live, uint32_t view, nook_texture *out_visibility)
+{
+    const nook_live_view *v = &live->views.views[view];
+    *out_visibility = (nook_texture){ 0 };
+    if (v->open || !nook_live_mode_occludes(v->mode))
+        return NOOK_OK;
+    nook_setting setting = live_setting_of(live, view);
+    if (setting.technique->exact) /* too slow for a frame: what is traced behind it is shown */
+        return NOOK_OK;
+    nook_result result = record_view(live, view, &setting);
+    if (result == NOOK_OK)
+        *out_visibility = nook_stage_visibility(live->stage);
+    return result;
+}
+
+/* All views' visibility lies in one texture, so that light needs no turns with AO. */
+static nook_result draw_views(nook_live *live)
+{
+    nook_texture visibility[NOOK_LIVE_VIEWS_MAX];
+    const nook_texture truth = { 0 };
+    nook_result result = NOOK_OK;
+    for (uint32_t i = 0; i < live->views.count && result == NOOK_OK; i++)
+        result = occlude_view(live, i, &visibility[i]);
+    live_times_begin(live, LIVE_PASS_LIGHT);
+    for (uint32_t i = 0; i < live->views.count && result == NOOK_OK; i++)
+        result = live_show_view(live, i, visibility[i], truth);
+    live_times_end(live, LIVE_PASS_LIGHT);
+    return result == NOOK_OK ? nook_stage_check(live->stage, "the views") : result;
+}
+
+/* What makes the picture, and what undo takes back: which view is active does neither. */
+static nook_live_views state_of(const nook_live *live)
+{
+    nook_live_views state = live->views;
+    state.active = 0;
+    return state;
+}
+
+nook_result nook_live_draw(nook_live *live, const nook_camera *camera)
+{
+    nook_stage *stage = live->stage;
+    nook_result result = NOOK_OK;
+    live_times_frame(live);
+    bool resized = live->frame_width != stage->width || live->frame_height != stage->height;
+    if (!live->frozen || resized)
+        result = draw_gbuffer(live, live->frozen ? &live->camera : camera);
+    if (result != NOOK_OK)
+        return result;
+    nook_live_views_place(&live->views, stage->width, stage->height, live->places);
+    live_overlay_build(live);
+    nook_live_views state = state_of(live);
+    nook_live_views_place(&live->views, stage->width, stage->height, live->places);
+    if (live->stale || memcmp(&live->drawn, &state, sizeof state) != 0) {
+        result = draw_views(live);
+        live->drawn = state;
+        live->stale = result != NOOK_OK;
+    }
+    if (live->held == NOOK_LIVE_SPLITS_MAX && !(live->overlay_used && nook_overlay_busy(live->overlay)))
+        nook_live_history_push(&live->history, &state);
+    return result;
+}
+
+/* ---- Where it goes ------------------------------------------------------------------------------------------------ */
+
+static void copy_image(nook_live *live, nook_framebuffer target)
+{
+    live->stage->gpu->gl->BlitNamedFramebuffer(live->targets.image.id, target.id, 0, 0, (GLint)live->stage->width,
+                                               (GLint)live->stage->height, 0, 0, (GLint)target.width,
+                                               (GLint)target.height, GL_COLOR_BUFFER_BIT, GL_LINEAR);
+}
+
+static nook_result show_on(nook_live *live, nook_framebuffer target)
+{
+    nook_result result = live_fit_image(live);
+    if (result != NOOK_OK)
+        return result;
+    copy_image(live, target);
+    if (!live->overlay_used)
+        return NOOK_OK;
+    live_times_begin(live, LIVE_PASS_OVERLAY);
+    result = nook_overlay_draw(live->overlay, target);
+    live_times_end(live, LIVE_PASS_OVERLAY);
+    return result;
+}
+
+nook_result nook_live_present(nook_live *live, uint32_t width, uint32_t height)
+{
+    return show_on(live, (nook_framebuffer){ 0, width, height });
+}
+
+static void flip(uint8_t *rgb, uint32_t width, uint32_t height)
+{
+    size_t row = (size_t)width * 3;
+    for (uint32_t low = 0, high = height - 1; low < high; low++, high--) {
+        for (size_t i = 0; i < row; i++) {
+            uint8_t byte = rgb[low * row + i];
+            rgb[low * row + i] = rgb[high * row + i];
+            rgb[high * row + i] = byte;
+        }
+    }
+}
+
+nook_result nook_live_picture(nook_live *live, uint32_t width, uint32_t height, uint8_t *out_rgb)
+{
+    nook_gpu *gpu = live->stage->gpu;
+    nook_texture image = { 0 };
+    nook_framebuffer target = { 0 };
+    nook_result result = nook_texture_create_2d(gpu, GL_RGBA8, width, height, GL_NEAREST, &image);
+    if (result == NOOK_OK)
+        result = nook_framebuffer_create(gpu, &image, 1, (nook_texture){ 0 }, &target);
+    if (result == NOOK_OK)
+        result = show_on(live, target);
+    if (result == NOOK_OK) {
+        nook_texture_read(gpu, image, GL_RGB, GL_UNSIGNED_BYTE, out_rgb, (size_t)width * height * 3);
+        flip(out_rgb, width, height);
+    }
+    nook_framebuffer_destroy(gpu, &target);
+    nook_texture_destroy(gpu, &image);
+    return result;
+}

@@ -1,0 +1,124 @@
+#include "engine/core/log.h"
+#include "game/live/live_internal.h"
+#include "game/settings/settings_file.h"
+#include "modules/ao/technique.h"
+#include <stdio.h>
+#include <string.h>
+
+static double shared_value(const nook_ao *ao, const char *name)
+{
+    double value = 0.0;
+    nook_ao_get_param(ao, name, &value);
+    return value;
+}
+
+/* What the AO is set to, for one of its techniques. */
+static nook_setting setting_in_use(const nook_ao *ao, const nook_ao_technique *technique)
+{
+    nook_setting setting = nook_setting_initial(technique);
+    const nook_param *param;
+    bool shared;
+    for (size_t i = 0; (param = nook_setting_param_at(technique, i, &shared)); i++) {
+        char name[128], text[NOOK_SETTING_VALUE_MAX];
+        nook_setting_param entry = { param, shared, 0.0 };
+        snprintf(name, sizeof name, "%s.%s", shared ? "ao" : technique->name, param->name);
+        if (nook_ao_get_param(ao, name, &entry.value) != NOOK_OK)
+            continue;
+        snprintf(name, sizeof name, "%s%s", shared ? "ao." : "", param->name);
+        nook_setting_assign("the AO", &setting, name, nook_setting_value(&entry, text));
+    }
+    return setting;
+}
+
+void live_take_over(nook_live *live)
+{
+    const nook_ao *ao = live->stage->ao;
+    const nook_ao_technique *technique;
+    for (uint32_t i = 0; i < LIVE_TECHNIQUES && (technique = nook_ao_technique_at(ao, i)); i++) {
+        nook_setting setting = setting_in_use(ao, technique);
+        nook_setting_print(&setting, live->remembered[i]);
+    }
+    live->views.r_max = shared_value(ao, "ao.r_max");
+    live->views.falloff = shared_value(ao, "ao.falloff");
+    live->views.falloff_tau = shared_value(ao, "ao.falloff_tau");
+}
+
+nook_setting live_setting_of(nook_live *live, uint32_t view)
+{
+    nook_live_view *v = &live->views.views[view];
+    char where[32], name[NOOK_SETTING_TEXT_MAX];
+    nook_setting setting = nook_setting_initial(nook_ao_technique_at(live->stage->ao, 0));
+    snprintf(where, sizeof where, "view %u", view + 1);
+    if (nook_setting_parse(where, v->setting, &setting) == NOOK_OK)
+        return setting;
+    snprintf(name, sizeof name, "%s", v->setting);
+    name[strcspn(name, " ")] = '\0';
+    if (nook_setting_parse(where, name, &setting) != NOOK_OK)
+        setting = nook_setting_initial(nook_ao_technique_at(live->stage->ao, 0));
+    live_set_setting(live, view, &setting);
+    live_note(live, "view %u: its setting cannot be read any more; now %s", view + 1, v->setting);
+    return setting;
+}
+
+/* @return LIVE_TECHNIQUES when there is none */
+static uint32_t technique_number(const nook_live *live, const char *name, size_t length)
+{
+    const nook_ao_technique *technique;
+    for (uint32_t i = 0; i < LIVE_TECHNIQUES && (technique = nook_ao_technique_at(live->stage->ao, i)); i++) {
+        if (strncmp(technique->name, name, length) == 0 && technique->name[length] == '\0')
+            return i;
+    }
+    return LIVE_TECHNIQUES;
+}
+
+void live_set_setting(nook_live *live, uint32_t view, const nook_setting *setting)
+{
+    nook_live_view *v = &live->views.views[view];
+    memset(v->setting, 0, sizeof v->setting); /* states are compared as bytes */
+    nook_setting_print(setting, v->setting);
+    uint32_t number = technique_number(live, setting->technique->name, strlen(setting->technique->name));
+    if (number < LIVE_TECHNIQUES)
+        memcpy(live->remembered[number], v->setting, sizeof v->setting);
+}
+
+void live_choose_technique(nook_live *live, uint32_t number)
+{
+    nook_live_view *v = &live->views.views[live->views.active];
+    if (number >= LIVE_TECHNIQUES || !nook_ao_technique_at(live->stage->ao, number))
+        return;
+    uint32_t before = technique_number(live, v->setting, strcspn(v->setting, " "));
+    if (before < LIVE_TECHNIQUES)
+        memcpy(live->remembered[before], v->setting, sizeof v->setting);
+    memcpy(v->setting, live->remembered[number], sizeof v->setting);
+    v->open = false;
+}
+
+nook_result live_apply(nook_live *live, const nook_setting *setting)
+{
+    const nook_live_views *views = &live->views;
+    nook_ao *ao = live->stage->ao;
+    nook_result result = nook_setting_apply(ao, setting);
+    if (result == NOOK_OK)
+        result = nook_ao_set_param(ao, "ao.r_max", views->r_max);
+    if (result == NOOK_OK)
+        result = nook_ao_set_param(ao, "ao.falloff", views->falloff);
+    return result == NOOK_OK ? nook_ao_set_param(ao, "ao.falloff_tau", views->falloff_tau) : result;
+}
+
+/* The choice of ao.falloff by its name. */
+static void print_falloff(const nook_live *live, char *out, size_t capacity)
+{
+    size_t count;
+    const nook_param *shared = nook_ao_shared_params(&count);
+    nook_param_print_value(nook_param_find(shared, count, "falloff"), live->views.falloff, out, capacity);
+}
+
+nook_result live_save(nook_live *live)
+{
+    nook_settings_file file = { .setting = live_setting_of(live, live->views.active), .r_max = live->views.r_max };
+    print_falloff(live, file.falloff, sizeof file.falloff);
+    nook_result result = nook_settings_file_write(live->settings_path, &file, NULL);
+    live_note(live, result == NOOK_OK ? "saved to %s" : "%s could not be written; the log says why",
+              live->settings_path);
+    return result;
+}
