@@ -8,7 +8,7 @@
 enum { UNIT_FIRST = 0, UNIT_TRUTH = 1, UNIT_DEPTH = 2, UNIT_COLOURS = 3 };
 
 static const char vertex_path[] = "shaders/render/fullscreen.vert.glsl";
-static const float voxel_threshold = 0.5f; /* modules/bake writes 0 and 255 */
+static const double voxel_threshold = 0.5; /* modules/bake writes 0 and 255 */
 
 /* ---- Targets ------------------------------------------------------------------------------------------------------ */
 
@@ -110,6 +110,12 @@ static void end_pass(nook_live *live)
     gl->BindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
+static void set_float(nook_gpu *gpu, uint32_t location, double value)
+{
+    const float number = (float)value;
+    nook_uniform_float(gpu, location, &number, 1);
+}
+
 static nook_result show_counts(nook_live *live, const nook_rectangle *part, double strongest)
 {
     nook_gpu *gpu = live->stage->gpu;
@@ -119,7 +125,7 @@ static nook_result show_counts(nook_live *live, const nook_rectangle *part, doub
         return result;
     nook_bind_texture(gpu, UNIT_FIRST, live->targets.counts);
     nook_bind_texture(gpu, UNIT_COLOURS, live->targets.amount_colours);
-    gpu->gl->Uniform1f(0, (GLfloat)strongest);
+    set_float(gpu, 0, strongest);
     end_pass(live);
     return NOOK_OK;
 }
@@ -145,6 +151,7 @@ static nook_result show_error(nook_live *live, const nook_rectangle *part, nook_
 {
     nook_gpu *gpu = live->stage->gpu;
     const nook_rgb ground = nook_error_no_geometry();
+    const float grey[3] = { (float)ground.r / 255.0f, (float)ground.g / 255.0f, (float)ground.b / 255.0f };
     nook_program program;
     nook_result result = begin_pass(live, "shaders/live/error.frag.glsl", part, &program);
     if (result != NOOK_OK)
@@ -153,8 +160,8 @@ static nook_result show_error(nook_live *live, const nook_rectangle *part, nook_
     nook_bind_texture(gpu, UNIT_TRUTH, truth);
     nook_bind_texture(gpu, UNIT_DEPTH, nook_renderer_gbuffer(live->stage->renderer).depth);
     nook_bind_texture(gpu, UNIT_COLOURS, live->targets.error_colours);
-    gpu->gl->Uniform1f(0, (GLfloat)live->views.error_range);
-    gpu->gl->Uniform3f(1, (GLfloat)ground.r / 255.0f, (GLfloat)ground.g / 255.0f, (GLfloat)ground.b / 255.0f);
+    set_float(gpu, 0, live->views.error_range);
+    nook_uniform_float(gpu, 1, grey, 3);
     end_pass(live);
     return NOOK_OK;
 }
@@ -168,24 +175,31 @@ const nook_ao_occluder *live_chosen_body(nook_live *live)
     return count == 0 ? NULL : &occluders[live->views.body < count ? live->views.body : 0];
 }
 
-static void set_volume(const nook_gl *gl, const nook_ao_volume_place *place)
+static void set_volume(nook_gpu *gpu, const nook_ao_volume_place *place)
 {
-    gl->Uniform3i(0, (GLint)place->origin[0], (GLint)place->origin[1], (GLint)place->origin[2]);
-    gl->Uniform3i(1, (GLint)place->size[0], (GLint)place->size[1], (GLint)place->size[2]);
+    int32_t origin[3], size[3];
+    for (int axis = 0; axis < 3; axis++) {
+        origin[axis] = (int32_t)place->origin[axis];
+        size[axis] = (int32_t)place->size[axis];
+    }
+    nook_bind_texture(gpu, UNIT_FIRST, place->atlas);
+    nook_uniform_int(gpu, 0, origin, 3);
+    nook_uniform_int(gpu, 1, size, 3);
 }
 
 static nook_result show_slices(nook_live *live, const nook_rectangle *part, const nook_ao_volume_place *place)
 {
-    const nook_gl *gl = live->stage->gpu->gl;
-    const double *cut = live->views.slice;
+    nook_gpu *gpu = live->stage->gpu;
+    const double *slice = live->views.slice;
+    const float cut[3] = { (float)slice[0], (float)slice[1], (float)slice[2] };
+    const float place_of_view[4] = { (float)part->x, (float)part->y, (float)part->width, (float)part->height };
     nook_program program;
     nook_result result = begin_pass(live, "shaders/live/slices.frag.glsl", part, &program);
     if (result != NOOK_OK)
         return result;
-    nook_bind_texture(live->stage->gpu, UNIT_FIRST, place->atlas);
-    set_volume(gl, place);
-    gl->Uniform3f(2, (GLfloat)cut[0], (GLfloat)cut[1], (GLfloat)cut[2]);
-    gl->Uniform4f(3, (GLfloat)part->x, (GLfloat)part->y, (GLfloat)part->width, (GLfloat)part->height);
+    set_volume(gpu, place);
+    nook_uniform_float(gpu, 2, cut, 3);
+    nook_uniform_float(gpu, 3, place_of_view, 4);
     end_pass(live);
     return NOOK_OK;
 }
@@ -210,23 +224,24 @@ static bool voxel_from_view(const nook_live *live, const nook_ao_occluder *body,
 static nook_result show_voxels(nook_live *live, const nook_rectangle *part, const nook_ao_occluder *body,
                                const nook_ao_volume_place *place)
 {
-    const nook_gl *gl = live->stage->gpu->gl;
+    nook_gpu *gpu = live->stage->gpu;
     const float light[3] = { 0.36f, 0.80f, 0.48f }; /* from above, over the right shoulder */
     float matrix[16];
     nook_program program;
     nook_matrix clip_from_view = nook_renderer_clip_from_view(live->stage->renderer, &live->camera);
+    const float rays[4] = { (float)(1.0 / clip_from_view.m[0]), (float)(1.0 / clip_from_view.m[5]),
+                            (float)live->stage->width, (float)live->stage->height };
     if (!voxel_from_view(live, body, place, matrix))
         return NOOK_OK;
     nook_result result = begin_pass(live, "shaders/live/voxels.frag.glsl", part, &program);
     if (result != NOOK_OK)
         return result;
-    nook_bind_texture(live->stage->gpu, UNIT_FIRST, place->atlas);
-    set_volume(gl, place);
-    gl->UniformMatrix4fv(2, 1, GL_FALSE, matrix);
-    gl->Uniform4f(3, (GLfloat)(1.0 / clip_from_view.m[0]), (GLfloat)(1.0 / clip_from_view.m[5]),
-                  (GLfloat)live->stage->width, (GLfloat)live->stage->height);
-    gl->Uniform3f(4, light[0], light[1], light[2]);
-    gl->Uniform1f(5, voxel_threshold);
+    set_volume(gpu, place);
+    for (uint32_t column = 0; column < 4; column++)
+        nook_uniform_float(gpu, 2 + column, matrix + 4 * column, 3);
+    nook_uniform_float(gpu, 6, rays, 4);
+    nook_uniform_float(gpu, 7, light, 3);
+    set_float(gpu, 8, voxel_threshold);
     end_pass(live);
     return NOOK_OK;
 }

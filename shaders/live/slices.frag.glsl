@@ -22,7 +22,7 @@ vec3 cut_at(int axis, vec2 at, float voxels_per_pixel)
     p[axis] = min(int(cut[axis] * float(size[axis])), size[axis] - 1);
     p[u] = int(voxel.x), p[v] = int(voxel.y);
     vec3 colour = mix(EMPTY, FULL, texelFetch(atlas, origin + p, 0).r);
-    return min(from_line.x, from_line.y) < 0.5 ? mix(colour, LINE, 0.7) : colour;
+    return min(from_line.x, from_line.y) < 0.75 ? mix(colour, LINE, 0.7) : colour;
 }
 
 void main()
