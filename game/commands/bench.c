@@ -7,6 +7,7 @@
 static const nook_command benches[] = {
     { "ecs", "create, change, walk and destroy entities", nook_bench_run_ecs },
     { "frame", "where the milliseconds of a frame go, with bodies that move", nook_bench_run_frame },
+    { "reload", "how soon a saved shader is in the picture", nook_bench_run_reload },
 };
 
 static void print_usage(FILE *stream)

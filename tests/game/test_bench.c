@@ -1,5 +1,7 @@
 #include "game/commands/bench_ecs.h"
 #include "game/commands/commands.h"
+#include "tests/support/scratch.h"
+#include "tests/support/test_gpu.h"
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -33,11 +35,36 @@ static void test_bench_refuses_what_it_cannot_time(void **state)
     assert_int_equal(nook_command_bench(&app, 4, (char *[]){ "bench", "ecs", "--entities", "10", NULL }), NOOK_EXIT_OK);
 }
 
+static void test_bench_reload_sees_every_file_it_saves(void **state)
+{
+    (void)state;
+    char cache[512], scene[512];
+    const nook_app app = { .root = test_gpu_root() }, nowhere = { .root = "no_such_folder" };
+    snprintf(scene, sizeof scene, "%s/tests/game/data/crate.gltf", app.root);
+    char *arguments[] = { "bench",
+                          "reload",
+                          scene,
+                          "--saves",
+                          "1",
+                          "--size",
+                          "32x18",
+                          "--backend",
+                          "osmesa",
+                          "--cache",
+                          nook_scratch_path(cache, sizeof cache, "cache"),
+                          NULL };
+    assert_int_equal(nook_command_bench(&app, 11, arguments), NOOK_EXIT_OK);
+    assert_int_equal(nook_command_bench(&nowhere, 11, arguments), NOOK_EXIT_FAILED);
+    arguments[4] = "0";
+    assert_int_equal(nook_command_bench(&app, 11, arguments), NOOK_EXIT_USAGE);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_bench_gives_a_median_between_lowest_and_highest_for_each_step),
         cmocka_unit_test(test_bench_refuses_what_it_cannot_time),
+        cmocka_unit_test(test_bench_reload_sees_every_file_it_saves),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

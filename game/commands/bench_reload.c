@@ -1,0 +1,271 @@
+/* From saving a shader to the picture that shows it: frames are drawn one after the other, as in a window, while files of a
+   copy of the shaders are saved. */
+#include "engine/core/clock.h"
+#include "engine/core/file.h"
+#include "engine/core/log.h"
+#include "game/commands/benches.h"
+#include "game/compare/camera.h"
+#include "game/extremes/scratch_folder.h"
+#include "game/live/shader_reload.h"
+#include "game/option_rows.h"
+#include "game/settings/settings_file.h"
+#include "game/stage.h"
+#include "game/techniques.h"
+#include "game/volumes.h"
+#include <dirent.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { SAVES_MAX = 1000, PATH_CAPACITY = 4096 };
+static const double patience_ms = 60000.0;
+
+/* What is saved. */
+static const char *const files[] = { "shaders/render/view.frag.glsl", "shaders/ao/volume.comp.glsl",
+                                     "shaders/ao/frame.glsl", "shaders/render/frame.glsl" };
+
+typedef struct reload_options {
+    const char *scene, *settings, *cache;
+    nook_option_size size;
+    nook_backend backend;
+    int32_t saves;
+    char default_scene[NOOK_OPTION_PATH_MAX], default_cache[NOOK_OPTION_PATH_MAX];
+} reload_options;
+
+typedef struct reload_times {
+    double total[SAVES_MAX];    /* ms, from the rename that saves to the finished picture */
+    double building[SAVES_MAX]; /* ms, of that in the driver's compiler and linker */
+    uint32_t programs;          /* of the last save */
+} reload_times;
+
+static bool read_options(const nook_app *app, int argc, char **argv, reload_options *out, int *out_exit_code)
+{
+    *out = (reload_options){ .size = { 640, 360 }, .saves = 20, .backend = NOOK_BACKEND_AUTO };
+    out->scene = nook_option_default_scene(app, out->default_scene);
+    out->cache = nook_option_default_cache(app, out->default_cache);
+    const nook_option options[] = {
+        nook_option_row_size(&out->size, "of the pictures in pixels; default 640x360"),
+        nook_option_row_settings(&out->settings, "technique and parameters; default: volume as it comes"),
+        { .name = "saves",
+          .kind = NOOK_OPTION_INT,
+          .target = &out->saves,
+          .placeholder = "N",
+          .lowest = 1,
+          .highest = SAVES_MAX,
+          .help = "of each file; default 20" },
+        nook_option_row_backend(&out->backend),
+        nook_option_row_cache(&out->cache, "where baked volumes are kept; default: cache/ of Nook"),
+    };
+    const nook_usage usage = {
+        .command = "bench reload",
+        .summary =
+            "Times how soon a saved shader is in the picture, on the first camera of a scene, default the demo level.",
+        .positionals = "[SCENE]",
+        .positional_max = 1,
+        .options = options,
+        .option_count = NOOK_COUNT(options),
+        .details =
+            "Milliseconds of wall time, medians over the saves: from the rename that saves to the end of the first\n"
+            "picture with the new program; frames follow each other without a pause. Works on a copy of the\n"
+            "shaders, with the driver's cache of compiled shaders switched off, as if what is saved were new.\n"
+    };
+    nook_arguments arguments;
+    if (!nook_arguments_read(&usage, argc, argv, &arguments, out_exit_code))
+        return false;
+    if (arguments.positional_count > 0)
+        out->scene = arguments.positionals[0];
+    return true;
+}
+
+static nook_result copy_file(const char *from, const char *to)
+{
+    nook_file file;
+    nook_result result = nook_file_read(from, &file);
+    if (result != NOOK_OK)
+        return result;
+    result = nook_file_write(to, file.bytes, file.size);
+    nook_file_free(&file);
+    return result;
+}
+
+/* A folder with all in it that has no dot in front of its name. */
+static nook_result copy_folder(const char *from, const char *to)
+{
+    char inner_from[PATH_CAPACITY], inner_to[PATH_CAPACITY];
+    const struct dirent *entry;
+    nook_result result = nook_directory_make(to);
+    DIR *directory = opendir(from);
+    if (!directory)
+        return nook_fail(NOOK_E_NOT_FOUND, "%s: cannot be read; set NOOK_ROOT to the folder of Nook's sources", from);
+    while (result == NOOK_OK && (entry = readdir(directory)) != NULL) {
+        if (entry->d_name[0] == '.')
+            continue;
+        nook_path_join(inner_from, sizeof inner_from, from, entry->d_name);
+        nook_path_join(inner_to, sizeof inner_to, to, entry->d_name);
+        result =
+            nook_directory_exists(inner_from) ? copy_folder(inner_from, inner_to) : copy_file(inner_from, inner_to);
+    }
+    closedir(directory);
+    return result;
+}
+
+static nook_result copy_root(const char *root, const char *to)
+{
+    static const char *const folders[] = { "shaders", "modules" };
+    char inner_from[PATH_CAPACITY], inner_to[PATH_CAPACITY];
+    nook_result result = NOOK_OK;
+    for (size_t i = 0; i < NOOK_COUNT(folders) && result == NOOK_OK; i++)
+        result = copy_folder(nook_path_join(inner_from, sizeof inner_from, root, folders[i]),
+                             nook_path_join(inner_to, sizeof inner_to, to, folders[i]));
+    return result;
+}
+
+static nook_result draw(nook_stage *stage, const nook_camera *camera)
+{
+    nook_result result = nook_stage_begin(stage, camera);
+    if (result == NOOK_OK)
+        result = nook_stage_occlude(stage);
+    if (result == NOOK_OK)
+        result = nook_stage_finish(stage, true, NOOK_VIEW_LIT);
+    nook_gpu_finish(stage->gpu);
+    stage->frame_index++;
+    return result;
+}
+
+/* Saves the file with one more line, as an editor does. */
+static nook_result save(const char *root, const char *name, int32_t number)
+{
+    char path[PATH_CAPACITY], *text;
+    nook_file file;
+    nook_result result = nook_file_read(nook_path_join(path, sizeof path, root, name), &file);
+    if (result != NOOK_OK)
+        return result;
+    size_t size = file.size + 32;
+    text = malloc(size);
+    if (text) {
+        int length = snprintf(text, size, "%s\n// %d\n", (const char *)file.bytes, number);
+        result = nook_file_write(path, text, (size_t)length);
+    } else {
+        result = nook_fail(NOOK_E_MEMORY, "%s: no memory", name);
+    }
+    free(text);
+    nook_file_free(&file);
+    return result;
+}
+
+/* Draws until the saved file is in the picture. */
+static nook_result time_save(nook_stage *stage, const nook_camera *camera, nook_shader_reload *reload,
+                             double *out_total, double *out_building, uint32_t *out_programs)
+{
+    const nook_shader_status *status = nook_shader_reload_status(reload);
+    double start = nook_clock_ms();
+    uint32_t before = status->reloads;
+    nook_result result = NOOK_OK;
+    while (status->reloads == before && result == NOOK_OK) {
+        if (nook_clock_ms() - start > patience_ms || status->failed > 0)
+            return nook_fail(NOOK_E_DEVICE, "bench reload: the saved shader was not taken (%s)",
+                             status->failed > 0 ? status->error : "nothing was seen");
+        nook_shader_reload_poll(reload);
+        result = draw(stage, camera);
+    }
+    *out_total = nook_clock_ms() - start;
+    *out_building = status->building_ms;
+    *out_programs = status->reloads - before;
+    return result;
+}
+
+static int by_size(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static void print_times(const char *name, reload_times *times, int32_t count)
+{
+    qsort(times->total, (size_t)count, sizeof(double), by_size);
+    qsort(times->building, (size_t)count, sizeof(double), by_size);
+    printf("  %-32s %9u %9.0f %9.0f %9.0f %9.0f\n", name, times->programs, times->building[count / 2],
+           times->total[count / 2], times->total[0], times->total[count - 1]);
+}
+
+static nook_result time_files(nook_stage *stage, const nook_camera *camera, const char *root,
+                              nook_shader_reload *reload, int32_t saves)
+{
+    reload_times *times = calloc(1, sizeof *times);
+    nook_result result = times ? NOOK_OK : nook_fail(NOOK_E_MEMORY, "bench reload: no memory");
+    for (size_t i = 0; i < NOOK_COUNT(files) && result == NOOK_OK; i++) {
+        for (int32_t k = 0; k < saves && result == NOOK_OK; k++) {
+            result = save(root, files[i], k);
+            if (result == NOOK_OK)
+                result = time_save(stage, camera, reload, &times->total[k], &times->building[k], &times->programs);
+        }
+        if (result == NOOK_OK)
+            print_times(files[i], times, saves);
+    }
+    free(times);
+    return result;
+}
+
+static nook_result prepare(nook_stage *stage, const reload_options *options, nook_camera *out_camera)
+{
+    nook_settings_file settings = { .setting = nook_setting_initial(nook_technique_find("volume")) };
+    char label[128];
+    nook_result result = options->settings ? nook_settings_file_read(options->settings, &settings) : NOOK_OK;
+    double r_max = settings.r_max > 0.0 ? settings.r_max : nook_volumes_default_r_max(stage->scene);
+    if (result == NOOK_OK)
+        result = nook_setting_apply(stage->ao, &settings.setting);
+    if (result == NOOK_OK)
+        result = nook_ao_set_param(stage->ao, "ao.r_max", r_max);
+    if (result == NOOK_OK)
+        result = nook_stage_fill(stage, &(nook_game_world_desc){ settings.setting.resolution, r_max, options->cache });
+    if (result == NOOK_OK)
+        result = nook_camera_choose(stage->scene, NULL, (double)stage->width / stage->height, out_camera, label,
+                                    sizeof label);
+    return result == NOOK_OK ? draw(stage, out_camera) : result;
+}
+
+static nook_result run(const reload_options *options, const char *root)
+{
+    const nook_stage_desc desc = { .root = root,
+                                   .scene_path = options->scene,
+                                   .backend = options->backend,
+                                   .width = (uint32_t)options->size.width,
+                                   .height = (uint32_t)options->size.height };
+    nook_stage stage;
+    nook_camera camera;
+    nook_shader_reload *reload = NULL;
+    nook_result result = nook_stage_open(&desc, &stage);
+    if (result != NOOK_OK)
+        return result;
+    result = prepare(&stage, options, &camera);
+    if (result == NOOK_OK)
+        result = nook_shader_reload_create(stage.gpu, &reload);
+    if (result == NOOK_OK) {
+        double start = nook_clock_ms();
+        result = draw(&stage, &camera);
+        printf("%s, %u x %u, %s, a frame takes %.0f ms\n\n  %-32s %9s %9s %9s %9s %9s\n", options->scene, stage.width,
+               stage.height, stage.gpu->renderer, nook_clock_ms() - start, "saved", "programs", "building", "to screen",
+               "lowest", "highest");
+    }
+    if (result == NOOK_OK)
+        result = time_files(&stage, &camera, root, reload, options->saves);
+    nook_shader_reload_destroy(reload);
+    nook_stage_close(&stage);
+    return result;
+}
+
+int nook_bench_run_reload(const nook_app *app, int argc, char **argv)
+{
+    reload_options options;
+    nook_scratch_folder folder;
+    int exit_code;
+    if (!read_options(app, argc, argv, &options, &exit_code))
+        return exit_code;
+    setenv("MESA_SHADER_CACHE_DISABLE", "true", 0); /* read by the driver when its context is made */
+    if (nook_scratch_folder_make(&folder) != NOOK_OK)
+        return NOOK_EXIT_FAILED;
+    nook_result result = copy_root(app->root, folder.path);
+    if (result == NOOK_OK)
+        result = run(&options, folder.path);
+    nook_scratch_folder_remove(&folder);
+    return result == NOOK_OK ? NOOK_EXIT_OK : NOOK_EXIT_FAILED;
+}
