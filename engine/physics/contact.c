@@ -19,7 +19,7 @@ static bool reserve(nook_physics *p, uint32_t count)
 {
     if (p->contact_count + count <= p->contact_capacity)
         return true;
-    uint32_t capacity = p->contact_capacity ? 2 * p->contact_capacity : 1024;
+    uint32_t capacity = 2 * p->contact_capacity;
     physics_contact *contacts = realloc(p->contacts, capacity * sizeof *contacts);
     if (!contacts) {
         p->out_of_memory = true;

@@ -11,6 +11,8 @@ typedef struct physics_tuning {
 
 extern const physics_tuning nook_physics_tuning;
 
+enum { PHYSICS_FIRST_CONTACTS = 2048 }; /* room for these from the start; a level of 60 bodies has some 300 */
+
 /* A geom, and for meshes the triangles that ODE refers to. */
 typedef struct physics_shape {
     dGeomID geom;

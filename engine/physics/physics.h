@@ -79,6 +79,8 @@ void nook_physics_destroy(nook_physics *physics); /**< NULL is allowed. */
 nook_result nook_physics_add(nook_physics *physics, const nook_body_desc *desc, nook_body *out_body);
 /** Stale handles are allowed. What rested on it wakes. */
 void nook_physics_remove(nook_physics *physics, nook_body body);
+/** All bodies in the order they were added. @param out `capacity` of them, or NULL @return how many there are */
+uint32_t nook_physics_bodies(const nook_physics *physics, nook_body *out, uint32_t capacity);
 bool nook_physics_alive(const nook_physics *physics, nook_body body);
 uint64_t nook_physics_user(const nook_physics *physics, nook_body body); /**< 0 for stale handles. */
 

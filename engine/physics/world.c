@@ -62,8 +62,14 @@ nook_result nook_physics_create(const nook_physics_desc *desc, nook_physics **ou
     *out_physics = NULL;
     pthread_once(&ode_once, start_ode);
     nook_physics *p = calloc(1, sizeof *p);
-    if (!p)
-        return nook_fail(NOOK_E_MEMORY, "physics: no memory for %zu bytes", sizeof *p);
+    physics_contact *contacts = malloc(PHYSICS_FIRST_CONTACTS * sizeof *contacts);
+    if (!p || !contacts) {
+        free(p);
+        free(contacts);
+        return nook_fail(NOOK_E_MEMORY, "physics: no memory for a world");
+    }
+    p->contacts = contacts;
+    p->contact_capacity = PHYSICS_FIRST_CONTACTS;
     p->gravity = desc->gravity != 0.0 ? desc->gravity : 9.81;
     p->random = desc->seed;
     p->world = dWorldCreate();
@@ -115,6 +121,13 @@ physics_body *nook_physics_find(const nook_physics *physics, nook_body body)
     }
     bool found = low < physics->body_count && physics->bodies[low]->id == body.id;
     return found ? physics->bodies[low] : NULL;
+}
+
+uint32_t nook_physics_bodies(const nook_physics *physics, nook_body *out, uint32_t capacity)
+{
+    for (uint32_t i = 0; out && i < capacity && i < physics->body_count; i++)
+        out[i] = (nook_body){ physics->bodies[i]->id };
+    return physics->body_count;
 }
 
 uint64_t nook_physics_steps(const nook_physics *physics)

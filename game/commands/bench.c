@@ -8,6 +8,7 @@ static const nook_command benches[] = {
     { "ecs", "create, change, walk and destroy entities", nook_bench_run_ecs },
     { "frame", "where the milliseconds of a frame go, with bodies that move", nook_bench_run_frame },
     { "reload", "how soon a saved shader is in the picture", nook_bench_run_reload },
+    { "physics", "a step of a level's rigid bodies: asleep, awake, thrown about; rays", nook_bench_run_physics },
 };
 
 static void print_usage(FILE *stream)

@@ -1,11 +1,14 @@
 #include "game/commands/bench_ecs.h"
 #include "game/commands/commands.h"
+#include "tests/support/log_capture.h"
 #include "tests/support/scratch.h"
 #include "tests/support/test_gpu.h"
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <cmocka.h>
@@ -59,12 +62,33 @@ static void test_bench_reload_sees_every_file_it_saves(void **state)
     assert_int_equal(nook_command_bench(&app, 11, arguments), NOOK_EXIT_USAGE);
 }
 
+static void test_bench_times_the_physics_of_a_level(void **state)
+{
+    (void)state;
+    const char *root = getenv("NOOK_ROOT");
+    const nook_app app = { .root = root ? root : "." };
+    char level[512];
+    snprintf(level, sizeof level, "%s/tests/game/data/crate.gltf", app.root);
+    assert_int_equal(
+        nook_command_bench(&app, 7, (char *[]){ "bench", "physics", level, "--steps", "3", "--crates", "2", NULL }),
+        NOOK_EXIT_OK);
+    assert_int_equal(nook_command_bench(&app, 4, (char *[]){ "bench", "physics", "--steps", "0", NULL }),
+                     NOOK_EXIT_USAGE);
+    nook_log_capture log;
+    nook_log_capture_begin(&log);
+    assert_int_equal(nook_command_bench(&app, 3, (char *[]){ "bench", "physics", "no_such.level", NULL }),
+                     NOOK_EXIT_FAILED);
+    nook_log_capture_end();
+    assert_non_null(strstr(log.text, "no_such.level"));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_bench_gives_a_median_between_lowest_and_highest_for_each_step),
         cmocka_unit_test(test_bench_refuses_what_it_cannot_time),
         cmocka_unit_test(test_bench_reload_sees_every_file_it_saves),
+        cmocka_unit_test(test_bench_times_the_physics_of_a_level),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -153,6 +153,23 @@ static void test_body_gives_back_what_it_was_given(void **state)
     nook_physics_destroy(physics);
 }
 
+static void test_bodies_are_listed_in_the_order_they_were_added(void **state)
+{
+    (void)state;
+    nook_physics *physics = physics_scene_create();
+    nook_body added[3], listed[3] = { { 0 } };
+    for (int i = 0; i < 3; i++)
+        added[i] = physics_scene_crate(physics, 0.2, 5, i, 0, 0);
+    nook_physics_remove(physics, added[1]);
+    assert_int_equal(nook_physics_bodies(physics, NULL, 0), 2);
+    assert_int_equal(nook_physics_bodies(physics, listed, 1), 2);
+    assert_int_equal(listed[0].id, added[0].id);
+    assert_int_equal(listed[1].id, 0);
+    assert_int_equal(nook_physics_bodies(physics, listed, 3), 2);
+    assert_int_equal(listed[1].id, added[2].id);
+    nook_physics_destroy(physics);
+}
+
 static void test_destroy_takes_null(void **state)
 {
     (void)state;
@@ -266,6 +283,7 @@ int main(void)
         cmocka_unit_test(test_add_refuses_meshes_that_are_none),
         cmocka_unit_test(test_stale_handles_do_nothing),
         cmocka_unit_test(test_body_gives_back_what_it_was_given),
+        cmocka_unit_test(test_bodies_are_listed_in_the_order_they_were_added),
         cmocka_unit_test(test_destroy_takes_null),
         cmocka_unit_test(test_body_turns_about_its_centre_of_mass_not_its_origin),
         cmocka_unit_test(test_body_lies_where_its_shapes_touch_the_ground),
