@@ -8,7 +8,9 @@
 static const double pi = 3.14159265358979323846;
 static const double units = 65536.0 / (2.0 * 3.14159265358979323846); /* of inputs, a radian */
 
-static const double turn_most = 0.09;     /* radians a tick: as a hand moves a mouse */
+static const double turn_most = 0.05;     /* radians a tick: as a hand moves a mouse */
+static const double turn_part = 0.2;      /* of what is left to turn in a tick, so that turns end gently */
+static const double turn_least = 0.002;   /* radians a tick */
 static const double aim_close = 0.004;    /* radians: looks there */
 static const double heading_close = 0.02; /* radians: goes straight on, so that a way is one long run of equal inputs */
 static const double there = 0.1;          /* metres */
@@ -34,7 +36,8 @@ static double wrapped(double angle)
 
 static int16_t turn_units(double radians)
 {
-    return (int16_t)lround(fmax(-turn_most, fmin(turn_most, radians)) * units);
+    double most = fmin(turn_most, fmax(turn_least, turn_part * fabs(radians)));
+    return (int16_t)lround(fmax(-most, fmin(most, radians)) * units);
 }
 
 /* @return whether it looks that way, to within `close` */

@@ -243,29 +243,71 @@ static void note_touched(void *user, nook_body body)
         self_and_other[1] = body;
 }
 
+static void grow(double low[3], double high[3], const double p[3])
+{
+    for (int k = 0; k < 3; k++) {
+        low[k] = fmin(low[k], p[k]);
+        high[k] = fmax(high[k], p[k]);
+    }
+}
+
+/* Calls for every corner of what a thing draws, in the world. */
+static void each_vertex(const nook_session *s, const session_thing *thing, const nook_pose *pose,
+                        void (*visit)(void *user, const double at[3]), void *user)
+{
+    const nook_scene *scene = s->desc.scene;
+    const nook_mesh *mesh = &scene->meshes[scene->nodes[thing->node].mesh];
+    nook_matrix world_from_body = nook_pose_matrix(pose);
+    nook_matrix m = nook_matrix_multiply(&world_from_body, &thing->body_from_node);
+    for (uint32_t i = 0; i < mesh->primitive_count; i++) {
+        const nook_primitive *primitive = &scene->primitives[mesh->first_primitive + i];
+        for (uint32_t v = 0; v < primitive->vertex_count; v++) {
+            const float *from = scene->vertices[primitive->first_vertex + v].position;
+            double p[3] = { (double)from[0], (double)from[1], (double)from[2] };
+            nook_matrix_apply_point(&m, p, p);
+            visit(user, p);
+        }
+    }
+}
+
+/* The bottom of a thing: how low it reaches, and the box around what is as low. */
+typedef struct bottom {
+    double lowest, thickness;
+    double low[3], high[3];
+} bottom;
+
+static void find_lowest(void *user, const double at[3])
+{
+    bottom *b = user;
+    b->lowest = fmin(b->lowest, at[1]);
+}
+
+static void find_extent(void *user, const double at[3])
+{
+    bottom *b = user;
+    if (at[1] < b->lowest + b->thickness)
+        grow(b->low, b->high, at);
+}
+
 /* Whether something is right below a body: a file that says it lies there is believed, and what hangs in the air falls. */
 static bool is_carried(nook_session *s, const session_thing *thing)
 {
-    const double sunk = 0.004, inset = 0.001;
+    const double gap = 0.004, around = 0.002;
     nook_pose pose = nook_physics_pose(s->physics, thing->body, 1.0);
-    double low[3] = { INFINITY, INFINITY, INFINITY }, high[3] = { -INFINITY, -INFINITY, -INFINITY };
-    for (int corner = 0; corner < 8; corner++) {
-        double p[3];
-        for (int k = 0; k < 3; k++)
-            p[k] = thing->middle[k] + (corner >> k & 1 ? 1.0 : -1.0) * thing->half[k];
-        nook_pose_apply_point(&pose, p, p);
-        for (int k = 0; k < 3; k++) {
-            low[k] = fmin(low[k], p[k]);
-            high[k] = fmax(high[k], p[k]);
-        }
+    bottom b = { .lowest = INFINITY,
+                 .thickness = gap,
+                 .low = { INFINITY, INFINITY, INFINITY },
+                 .high = { -INFINITY, -INFINITY, -INFINITY } };
+    each_vertex(s, thing, &pose, find_lowest, &b);
+    each_vertex(s, thing, &pose, find_extent, &b);
+    b.low[1] = b.lowest - gap;
+    b.high[1] = b.lowest;
+    for (int k = 0; k < 3; k++) {
+        b.low[k] -= around;
+        b.high[k] += around;
     }
-    low[0] += inset, low[2] += inset, high[0] -= inset, high[2] -= inset;
-    high[1] = low[1] + 2.0 * inset; /* a slice that hangs out of its bottom */
-    low[1] -= sunk;
-    if (low[0] >= high[0] || low[2] >= high[2])
-        return false;
     nook_body self_and_other[2] = { thing->body, { 0 } };
-    nook_physics_overlap(s->physics, low, high, note_touched, self_and_other);
+    nook_physics_overlap(s->physics, b.low, b.high, note_touched, self_and_other);
     return self_and_other[1].id != 0;
 }
 
