@@ -113,6 +113,9 @@ void nook_physics_sleep(nook_physics *physics, nook_body body);
 
 /** Newtons with which others pressed this body down in the last step: 9.81 a kilogram that rests on it. */
 double nook_physics_load(const nook_physics *physics, nook_body body);
+/** The same, told apart by who presses: calls `found` once for each contact, several times for one body. */
+void nook_physics_each_load(const nook_physics *physics, nook_body body,
+                            void (*found)(void *user, nook_body other, double newtons), void *user);
 /** The steepest ground contact of the last step. @param out_normal up from what it stands on @return false: it hangs in the air */
 bool nook_physics_ground(const nook_physics *physics, nook_body body, double out_normal[3]);
 

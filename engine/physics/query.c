@@ -3,16 +3,28 @@
 
 /* ---- of the last step ---- */
 
+void nook_physics_each_load(const nook_physics *physics, nook_body body,
+                            void (*found)(void *user, nook_body other, double newtons), void *user)
+{
+    for (uint32_t i = 0; i < physics->contact_count; i++) {
+        const physics_contact *c = &physics->contacts[i];
+        if (c->a == body.id && c->force[1] < 0.0)
+            found(user, (nook_body){ c->b }, -c->force[1]);
+        else if (c->b == body.id && c->force[1] > 0.0)
+            found(user, (nook_body){ c->a }, c->force[1]);
+    }
+}
+
+static void add_load(void *user, nook_body other, double newtons)
+{
+    (void)other;
+    *(double *)user += newtons;
+}
+
 double nook_physics_load(const nook_physics *physics, nook_body body)
 {
     double load = 0.0;
-    for (uint32_t i = 0; i < physics->contact_count; i++) {
-        const physics_contact *c = &physics->contacts[i];
-        if (c->a == body.id)
-            load += fmax(0.0, -c->force[1]);
-        else if (c->b == body.id)
-            load += fmax(0.0, c->force[1]);
-    }
+    nook_physics_each_load(physics, body, add_load, &load);
     return load;
 }
 

@@ -9,9 +9,6 @@ enum { RAYS_A_TICK = 16 };
 static const double keep_down = 0.85;
 /* Bodies press down with as much as their weight within this. */
 static const double weight_tolerance = 0.98;
-/* What lies on a plate reaches this far down to its top, metres; and up from it, where one looks for it. */
-static const double above = 0.06, below = 0.02;
-
 bool session_is_lock(const nook_level_entity *entity)
 {
     return entity->kind == NOOK_LEVEL_PLATE || entity->kind == NOOK_LEVEL_SHADE;
@@ -39,39 +36,31 @@ static void box_of(const session_thing *thing, double low[3], double high[3])
 typedef struct weighing {
     const nook_session *session;
     const nook_level_entity *plate;
-    double mass; /* kilograms of what it accepts that lies there */
+    double all, accepted; /* newtons */
 } weighing;
 
-static void weigh(void *user, nook_body body)
+static void weigh(void *user, nook_body body, double newtons)
 {
     weighing *w = user;
     uint32_t thing = session_thing_of_body(w->session, body);
-    if (thing == NOOK_NONE || w->session->carry.thing == thing)
-        return;
-    if (nook_level_name_matches(w->plate->accepts, session_thing_name(w->session, thing)))
-        w->mass += nook_physics_mass(w->session->physics, body);
+    w->all += newtons;
+    if (thing != NOOK_NONE && nook_level_name_matches(w->plate->accepts, session_thing_name(w->session, thing)))
+        w->accepted += newtons;
 }
 
 /* Kilograms on it that count. */
-static double weight_on(nook_session *s, const nook_level_entity *entity, session_rule *rule)
+static double weight_on(const nook_session *s, const nook_level_entity *entity, session_rule *rule)
 {
-    const session_thing *thing = &s->things[rule->thing];
-    rule->measured = nook_physics_load(s->physics, thing->body);
-    if (s->player.grounded && s->player.ground.id == thing->body.id)
-        rule->measured += (double)s->params.mass * session_gravity;
-    double pressing = rule->measured / session_gravity;
-    if (!*entity->accepts || pressing <= 0.0)
-        return pressing;
-    double low[3], high[3];
-    weighing w = { s, entity, 0.0 };
-    box_of(thing, low, high);
-    low[1] = high[1] - below;
-    high[1] += above;
-    nook_physics_overlap(s->physics, low, high, weigh, &w);
-    return fmin(pressing, w.mass);
+    const nook_body body = s->things[rule->thing].body;
+    weighing w = { s, entity, 0.0, 0.0 };
+    nook_physics_each_load(s->physics, body, weigh, &w);
+    if (s->player.grounded && s->player.ground.id == body.id) /* which hovers, and touches nothing */
+        w.all += (double)s->params.mass * session_gravity;
+    rule->measured = w.all;
+    return (*entity->accepts ? w.accepted : w.all) / session_gravity;
 }
 
-static bool plate_holds(nook_session *s, const nook_level_entity *entity, session_rule *rule)
+static bool plate_holds(const nook_session *s, const nook_level_entity *entity, session_rule *rule)
 {
     double part = rule->holds ? keep_down : weight_tolerance;
     return weight_on(s, entity, rule) >= part * entity->weight;
