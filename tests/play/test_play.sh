@@ -1,0 +1,110 @@
+#!/usr/bin/env bash
+# The game without a window: what ships wins, replays are the same bit for bit, and all ends in order.
+set -euo pipefail
+cd -- "$(dirname -- "${BASH_SOURCE[0]}")/../.."
+source tests/support/shell.sh
+export NOOK_ROOT=$PWD
+tmp=${NOOK_TEST_TMP:-$(mktemp -d)}
+house=content/engine_house/engine_house
+
+play() { "$NOOK_PROGRAM" play --headless "$@"; }
+
+# Whether a line of an ending says that, and what hash it has.
+ends_with() { [[ $1 =~ ^$2\ after\ [0-9]+\ ticks\ \([0-9]+\.[0-9]\ s\),\ hash\ [0-9a-f]{16}$ ]] && hash=${1##* }; }
+
+# The last line of what ships, played once for all that ask; its own recording is "$tmp/again.replay".
+shipped() {
+    [ -s "$tmp/shipped" ] || play --replay $house.replay --record "$tmp/again.replay" | tail -n 1 >"$tmp/shipped"
+    cat "$tmp/shipped"
+}
+
+test_the_recording_that_ships_wins_in_two_to_four_minutes() {
+    ends_with "$(shipped)" won
+    [[ $(shipped) =~ \(([0-9]+)\. ]]
+    [ "${BASH_REMATCH[1]}" -ge 120 ] && [ "${BASH_REMATCH[1]}" -le 240 ]
+    [ "$(wc -c <$house.replay)" -lt 200000 ]
+}
+
+test_recordings_of_the_same_inputs_are_the_same_and_end_in_the_same_state() {
+    local first second shared
+    first=$(shipped)
+    second=$(play --replay "$tmp/again.replay" | tail -n 1)
+    [ "$first" = "$second" ]
+    shared=$(($(wc -l <$house.replay) - 1)) # the last run of inputs may go on after the win
+    cmp <(head -n $shared $house.replay) <(head -n $shared "$tmp/again.replay")
+}
+
+test_on_another_seed_it_still_ends() {
+    local last
+    ends_with "$(shipped)" won
+    local own=$hash
+    last=$(play --replay $house.replay --seed 4242 | tail -n 1)
+    ends_with "$last" '(won|lost)'
+    [ "$hash" != "$own" ]
+}
+
+test_a_recording_that_breaks_off_is_lost_in_time() {
+    local last
+    head -n 400 $house.replay >"$tmp/half.replay"
+    last=$(play --replay "$tmp/half.replay" | tail -n 1)
+    ends_with "$last" lost
+    assert_holds "$last" "after 18000 ticks (300.0 s)"
+}
+
+test_the_pilot_wins_and_what_it_did_can_be_replayed() {
+    local last again
+    last=$(play --pilot $house.pilot --record "$tmp/pilot.replay" --seed 5 | tail -n 1)
+    ends_with "$last" won
+    assert_holds "$(head -n 3 "$tmp/pilot.replay")" "level $house.level"$'\n'"seed 5"
+    again=$(play --replay "$tmp/pilot.replay" | tail -n 1)
+    [ "$again" = "$last" ]
+}
+
+test_a_pilot_that_fails_is_said_and_is_a_failure() {
+    local said
+    printf 'within 1\nwalk_to 100 0\n' >"$tmp/lost.pilot"
+    said=$(assert_fails 1 play --pilot "$tmp/lost.pilot")
+    assert_holds "$said" "lost.pilot:2: walk_to 100 0: not done within 1 s"
+    assert_holds "$said" "undecided after"
+}
+
+test_a_model_is_played_to_the_end_of_what_drives_it() {
+    local last
+    printf 'wait 1\n' >"$tmp/wait.pilot"
+    last=$(play content/hall/hall.glb --pilot "$tmp/wait.pilot" | tail -n 1)
+    ends_with "$last" ended
+}
+
+test_a_replay_of_another_level_or_version_is_refused_in_one_line() {
+    local said
+    said=$(assert_fails 1 play content/hall/hall.glb --replay $house.replay)
+    assert_holds "$said" "was recorded in $house.level, not in content/hall/hall.glb"
+    [ "$(wc -l <<<"$said")" -eq 1 ]
+    sed '1s/1/9/' $house.replay >"$tmp/new.replay"
+    said=$(assert_fails 1 play --replay "$tmp/new.replay")
+    assert_holds "$said" "a recording of version 9, this build plays 1"
+    [ "$(wc -l <<<"$said")" -eq 1 ]
+}
+
+test_levels_and_files_that_are_not_there_are_said_in_one_line() {
+    local said
+    said=$(assert_fails 1 play nowhere.level)
+    assert_holds "$said" "nowhere.level"
+    [ "$(wc -l <<<"$said")" -eq 1 ]
+    said=$(assert_fails 1 play --replay nowhere.replay)
+    [ "$(wc -l <<<"$said")" -eq 1 ]
+    said=$(assert_fails 1 play content/hall/hall.glb)
+    assert_holds "$said" "give --replay or --pilot"
+    said=$(assert_fails 2 play --seed -1)
+    assert_holds "$said" "--seed"
+}
+
+test_a_level_that_is_wrong_is_not_played() {
+    local said
+    printf 'scene = %s/content/hall/hall.glb\n[body crate_large_0]\nmas = 3\n' "$PWD" >"$tmp/wrong.level"
+    said=$(assert_fails 1 play "$tmp/wrong.level")
+    assert_holds "$said" "wrong.level:3: a body has no mas; did you mean mass?"
+    [ "$(wc -l <<<"$said")" -eq 1 ]
+}
+
+run_tests
