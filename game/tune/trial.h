@@ -12,8 +12,8 @@ typedef struct nook_tune_view {
     double
         squared; /**< Mean squared error of visibility, without what the truth's own noise adds to it; by chance negative. */
     double pixels;    /**< That it is the mean of. */
-    double ms;        /**< Median of its frames; NaN: not timed. */
-    double ms_spread; /**< Half of what its slowest and its fastest frame are apart. */
+    double ms;        /**< That of the middle round (game/measure/site_time.h); NaN: not timed. */
+    double ms_spread; /**< Half of what its slowest and its fastest round are apart. */
     double noise;     /**< Of the truth: what was subtracted is its square. */
 } nook_tune_view;
 

@@ -52,14 +52,14 @@ nook_result nook_tune_report_write(const nook_tune_result *result, const nook_tu
              "machine    %s\n"
              "budget     %s at %d x %d pixels\n"
              "predicted  error %.4g +- %.2g, %.4g ms (%u cameras)\n"
-             "held back  error %.4g +- %.2g, %.4g ms (%u other cameras): %+.1f %%\n"
+             "held back  error %.4g +- %.2g, %.4g ms (%u other cameras): %+.1f +- %.1f %%\n"
              "tried      %u of %.0f settings\n"
              "use        ./nook compare SCENE --settings FILE\n\n",
              nook_path_name(options->scene), nook_origin_date(date), nook_origin_machine(stage->gpu, machine),
              print_goal(&options->goal, goal), options->size.width, options->size.height, predicted->cost.error,
              predicted->error_standard, predicted->cost.ms, predicted->views, actual->cost.error,
              actual->error_standard, actual->cost.ms, actual->views, percent * result->difference,
-             result->outcome.tried, result->settings);
+             percent * result->difference_standard, result->outcome.tried, result->settings);
     return nook_settings_file_write(options->out, &file, comment);
 }
 
@@ -78,7 +78,7 @@ static void print_found(const nook_tune_result *result, const nook_tune_goal *go
             predicted->cost.error, predicted->error_standard, actual->cost.error, actual->error_standard,
             percent * result->difference, percent * result->difference_standard,
             over(actual->cost.error, goal->max_error));
-    fprintf(stream, "%-10s %11.2f +- %-6.2f   %11.2f +- %-6.2f   %+10.1f %% (+-: of its own frames)%s\n", "ms",
+    fprintf(stream, "%-10s %11.2f +- %-6.2f   %11.2f +- %-6.2f   %+10.1f %% (+-: of its own turns)%s\n", "ms",
             predicted->cost.ms, predicted->ms_spread, actual->cost.ms, actual->ms_spread,
             percent * (actual->cost.ms / predicted->cost.ms - 1.0),
             over(fmax(actual->cost.ms, predicted->cost.ms), goal->max_ms));
@@ -119,8 +119,8 @@ static void print_doubts(const nook_tune_result *result, FILE *stream)
     const nook_tune_estimate *predicted = &result->predicted;
     if (2.0 * result->difference_standard > NOOK_TUNE_TOLERANCE)
         fprintf(stream,
-                "The views differ so much that two sets of %u can differ by %.0f %% by chance; more: --cameras N\n",
-                result->actual.views, percent * 2.0 * result->difference_standard);
+                "The views differ so much that sets of %u and %u can differ by %.0f %% by chance; more: --cameras N\n",
+                predicted->views, result->actual.views, percent * 2.0 * result->difference_standard);
     if (fabs(nook_tune_log_ratio(result->actual.cost.ms, predicted->cost.ms)) > log(1.0 + NOOK_TUNE_TOLERANCE))
         fprintf(stream, "The times differ by more than %.0f %%: was the machine busy with other things?\n",
                 percent * NOOK_TUNE_TOLERANCE);
@@ -160,8 +160,8 @@ void nook_tune_report_print(const nook_tune_result *result, const nook_tune_opti
         fprintf(stream, "nothing within %s; nearest %s: ", goal, text);
     fprintf(stream, "error %.4f, %.2f ms", predicted->cost.error, predicted->cost.ms);
     if (outcome->fits)
-        fprintf(stream, "; held back %.4f (%+.1f %%), %.2f ms", result->actual.cost.error, percent * result->difference,
-                result->actual.cost.ms);
+        fprintf(stream, "; held back %.4f (%+.1f %% +- %.1f %%), %.2f ms", result->actual.cost.error,
+                percent * result->difference, percent * result->difference_standard, result->actual.cost.ms);
     else
         fprintf(stream, " (+- %.4f and %.2f, which must be within too)", predicted->error_standard,
                 predicted->ms_standard);

@@ -3,6 +3,7 @@
 #include "engine/core/log.h"
 #include "game/cameras/sample.h"
 #include "game/techniques.h"
+#include "game/tune/trials.h"
 #include "game/tune/tune_progress.h"
 #include "game/tune/tune_views.h"
 #include "game/volumes.h"
@@ -79,34 +80,46 @@ static nook_result time_winner(tuning *t, const nook_tune_goal *goal, nook_tune_
 {
     nook_tune_trial winner = result->outcome.best;
     uint32_t timed = timed_views(goal, winner.view_count);
-    for (uint32_t i = 0; i < winner.view_count; i++) {
+    for (uint32_t i = 0; i < winner.view_count; i++)
         winner.views[i].ms = NAN;
-        if (i >= timed)
-            continue;
-        nook_tune_progress_proof(&t->progress, false, i, timed);
-        nook_result measured =
-            nook_tune_views_measure(&t->views, &winner.setting, NOOK_TUNE_CHOOSE, i, true, &winner.views[i]);
-        if (measured != NOOK_OK)
-            return measured;
-    }
-    result->predicted = nook_tune_pool(winner.views, winner.view_count);
-    return NOOK_OK;
+    nook_tune_progress_proof(&t->progress, false, 0, timed);
+    nook_result measured = nook_tune_views_time(&t->views, &winner.setting, NOOK_TUNE_CHOOSE, timed, winner.views);
+    if (measured == NOOK_OK)
+        result->predicted = nook_tune_pool(winner.views, winner.view_count);
+    return measured;
 }
 
-/* In as many views that nothing was chosen by. */
-static nook_result measure_held_back(tuning *t, const nook_tune_goal *goal, nook_tune_result *result)
+static nook_result measure_held_back_up_to(tuning *t, const nook_setting *setting, uint32_t from, uint32_t to,
+                                           nook_tune_view *views)
 {
-    uint32_t count = result->predicted.views, timed = timed_views(goal, count);
+    nook_result measured = NOOK_OK;
+    for (uint32_t i = from; i < to && measured == NOOK_OK; i++) {
+        nook_tune_progress_proof(&t->progress, true, i, to);
+        measured = nook_tune_views_measure(&t->views, setting, NOOK_TUNE_PROVE, i, false, &views[i]);
+    }
+    return measured;
+}
+
+/* In as many views that nothing was chosen by, and in more until their own spread asks for no more: they may differ more than those
+   that were chosen by. */
+static nook_result measure_held_back(tuning *t, const nook_tune_search_desc *search, nook_tune_result *result)
+{
+    const nook_setting *setting = &result->outcome.best.setting;
+    uint32_t count = 0, wanted = result->predicted.views;
     nook_tune_view views[NOOK_TUNE_VIEWS_MAX];
-    for (uint32_t i = 0; i < count; i++) {
-        nook_tune_progress_proof(&t->progress, true, i, count);
-        nook_result measured =
-            nook_tune_views_measure(&t->views, &result->outcome.best.setting, NOOK_TUNE_PROVE, i, i < timed, &views[i]);
+    while (count < wanted) {
+        nook_result measured = measure_held_back_up_to(t, setting, count, wanted, views);
         if (measured != NOOK_OK)
             return measured;
+        count = wanted;
+        nook_tune_estimate estimate = nook_tune_pool(views, count);
+        wanted = nook_tune_wanted(search, &estimate);
     }
-    result->actual = nook_tune_pool(views, count);
-    return NOOK_OK;
+    nook_result timed =
+        nook_tune_views_time(&t->views, setting, NOOK_TUNE_PROVE, timed_views(&search->goal, count), views);
+    if (timed == NOOK_OK)
+        result->actual = nook_tune_pool(views, count);
+    return timed;
 }
 
 static bool is_ms_within(const nook_tune_goal *goal, const nook_tune_estimate *estimate)
@@ -125,13 +138,13 @@ static void judge(const nook_tune_goal *goal, nook_tune_result *result)
     result->holds = result->near && result->error_holds && result->ms_holds;
 }
 
-static nook_result prove(tuning *t, const nook_tune_goal *goal, nook_tune_result *result)
+static nook_result prove(tuning *t, const nook_tune_search_desc *search, nook_tune_result *result)
 {
-    nook_result measured = time_winner(t, goal, result);
+    nook_result measured = time_winner(t, &search->goal, result);
     if (measured == NOOK_OK)
-        measured = measure_held_back(t, goal, result);
+        measured = measure_held_back(t, search, result);
     if (measured == NOOK_OK)
-        judge(goal, result);
+        judge(&search->goal, result);
     return measured;
 }
 
@@ -152,7 +165,7 @@ static nook_result search_and_prove(tuning *t, nook_stage *stage, const nook_tun
         done = nook_tune_search(&search, &result->outcome);
     result->predicted = result->outcome.estimate;
     if (done == NOOK_OK && result->outcome.fits)
-        done = prove(t, &options->goal, result);
+        done = prove(t, &search, result);
     stage->progress = outer;
     nook_tune_progress_end(&t->progress);
     nook_tune_views_close(&t->views);

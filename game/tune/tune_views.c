@@ -2,7 +2,7 @@
 #include "engine/core/log.h"
 #include "game/cameras/sample.h"
 #include "game/compare/camera.h"
-#include "game/measure/site.h"
+#include "game/measure/site_time.h"
 #include "game/tune/tune_pairs.h"
 #include "modules/ao/technique.h"
 #include <assert.h>
@@ -86,4 +86,33 @@ nook_result nook_tune_views_measure(nook_tune_views *views, const nook_setting *
                              .ms_spread = timed ? 0.5 * (sample.ms_max - sample.ms_min) : NAN,
                              .noise = noise };
     return NOOK_OK;
+}
+
+static nook_result time_round(nook_tune_views *views, const nook_setting *setting, nook_tune_set set, uint32_t count,
+                              nook_site_times *times)
+{
+    nook_result result = NOOK_OK;
+    for (uint32_t i = 0; i < count && result == NOOK_OK; i++) {
+        result = nook_site_show(views->sites[set][i]);
+        if (result == NOOK_OK)
+            result = nook_site_time_round(views->sites[set][i], setting, &times[i]);
+    }
+    return result;
+}
+
+nook_result nook_tune_views_time(nook_tune_views *views, const nook_setting *setting, nook_tune_set set, uint32_t count,
+                                 nook_tune_view *out_views)
+{
+    assert(count <= views->desc.views_max);
+    nook_site_times times[NOOK_TUNE_VIEWS_MAX] = { 0 };
+    nook_result result = fill(views, setting);
+    for (int round = 0; round < NOOK_SITE_ROUNDS && result == NOOK_OK; round++)
+        result = time_round(views, setting, set, count, times);
+    for (uint32_t i = 0; i < count && result == NOOK_OK; i++) {
+        nook_sample sample;
+        nook_site_times_put(&times[i], &sample);
+        out_views[i].ms = sample.ms_median;
+        out_views[i].ms_spread = 0.5 * (sample.ms_max - sample.ms_min);
+    }
+    return result;
 }

@@ -36,8 +36,16 @@ void nook_tune_views_close(nook_tune_views *views); /**< Zeroed ones are allowed
 
 /**
  * Measures a setting in one view; fills the stage with other volumes first when the setting needs them.
- * @param timed  false: ms becomes NaN
- * @return NOOK_E_DEVICE also for a picture that is not numbers
+ * @param timed  all rounds at once; false: ms becomes NaN
+ * @return NOOK_E_DEVICE also for a picture that is not numbers in [0, 1]
  */
 nook_result nook_tune_views_measure(nook_tune_views *views, const nook_setting *setting, nook_tune_set set,
                                     uint32_t view, bool timed, nook_tune_view *out);
+
+/**
+ * Times a setting in the first views of a set, in turns: one round of all of them after another (game/measure/site_time.h), so that what
+ * the machine does for a second does not fall on one view. All of them were measured before.
+ * @param out_views  `count` of them: ms and ms_spread are put there
+ */
+nook_result nook_tune_views_time(nook_tune_views *views, const nook_setting *setting, nook_tune_set set, uint32_t count,
+                                 nook_tune_view *out_views);

@@ -8,7 +8,8 @@ unset DISPLAY WAYLAND_DISPLAY
 
 nook() { "${NOOK_PROGRAM:-build/release/bin/nook}" "$@"; }
 
-tune() { nook tune "$crate" --backend osmesa --cache "$tmp/cache" --size 64x36 --cameras 6 --tries 24 "$@"; }
+# As many cameras as their spread asks for, unless --cameras says otherwise.
+tune() { nook tune "$crate" --backend osmesa --cache "$tmp/cache" --size 64x36 --tries 24 "$@"; }
 
 # number FILE KEY WHICH: the WHICH-th number of that name in a JSON file.
 number() { grep "\"$2\":" "$1" | sed -n "${3:-1}p" | sed 's/.*: //; s/,.*//'; }
@@ -16,34 +17,44 @@ number() { grep "\"$2\":" "$1" | sed -n "${3:-1}p" | sed 's/.*: //; s/,.*//'; }
 holds() { awk "BEGIN { exit !($1) }"; }
 
 test_a_setting_within_an_error_is_found_proven_and_written() {
-    # whether 6 cameras of 64 x 36 pixels prove it to 15 % is chance: both ends must be told as they are
-    local code=0
-    tune --max-error 0.1 --out "$tmp/found.txt" --json >"$tmp/found.json" 2>"$tmp/said" || code=$?
-    [ "$(number "$tmp/found.json" fits)" = true ]
+    tune --max-error 0.2 --out "$tmp/found.txt" --json >"$tmp/found.json" 2>"$tmp/said"
+    [ "$(number "$tmp/found.json" fits)" = true ] && [ "$(number "$tmp/found.json" holds)" = true ] && [ -s "$tmp/found.txt" ]
     holds "$(number "$tmp/found.json" error 1) > 0"
-    holds "$(number "$tmp/found.json" error 1) + $(number "$tmp/found.json" error_standard_error 1) <= 0.1"
+    holds "$(number "$tmp/found.json" error 1) + $(number "$tmp/found.json" error_standard_error 1) <= 0.2"
     holds "$(number "$tmp/found.json" ms_spread 1) > 0 && $(number "$tmp/found.json" ms_chosen_by) > 0"
     holds "$(number "$tmp/found.json" ms 1) > 0 && $(number "$tmp/found.json" ms 2) > 0"
-    [ "$(number "$tmp/found.json" cameras 1)" = 6 ] && [ "$(number "$tmp/found.json" cameras 2)" = 6 ]
     holds "$(number "$tmp/found.json" tried) <= 24 && $(number "$tmp/found.json" tried) < 0.01 * $(number "$tmp/found.json" settings)"
-    local p h d
+    local p h d r s
     p=$(number "$tmp/found.json" error 1) h=$(number "$tmp/found.json" error 2) d=$(number "$tmp/found.json" difference)
-    holds "($h / $p - 1 - $d) ^ 2 < 1e-12"
-    # over the budget there by more than its own standard error is as bad as far from what was predicted
-    local s within=false
-    s=$(number "$tmp/found.json" error_standard_error 2)
-    if holds "$h - $s <= 0.1"; then within=true; fi
-    [ "$(number "$tmp/found.json" error_holds)" = $within ] && [ "$(number "$tmp/found.json" ms_holds)" = true ]
-    if $within && holds "$d ^ 2 <= 0.15 ^ 2"; then
-        [ "$code" -eq 0 ] && [ "$(number "$tmp/found.json" holds)" = true ] && [ -s "$tmp/found.txt" ]
-    else
-        [ "$code" -eq 1 ] && [ "$(number "$tmp/found.json" holds)" = false ] && [ ! -e "$tmp/found.txt" ]
-    fi
+    r=$(number "$tmp/found.json" error_standard_error 1) s=$(number "$tmp/found.json" error_standard_error 2)
+    holds "($h / $p - 1 - $d) ^ 2 < 1e-12 && ($d) ^ 2 <= 0.15 ^ 2 && $h - $s <= 0.2"
+    holds "(($r ^ 2 + $s ^ 2) ^ 0.5 / $p - $(number "$tmp/found.json" difference_standard_error)) ^ 2 < 1e-12"
+    # both sets have as many views as their own spread asks for: three times the standard error of a difference is 15 %; or all there are
+    holds "3 * 2 ^ 0.5 * $r / $p <= 0.15 || $(number "$tmp/found.json" cameras 1) == 32"
+    holds "3 * 2 ^ 0.5 * $s / $h <= 0.15 || $(number "$tmp/found.json" cameras 2) == 32"
+    holds "$(number "$tmp/found.json" cameras 2) >= $(number "$tmp/found.json" cameras 1)"
+}
+
+# Time enough for anything: what is chosen is the most accurate of four settings, whatever the machine. Three views are too few to tell.
+test_what_the_held_back_views_do_not_bear_out_is_not_written() {
+    assert_fails 1 tune --max-ms 100000 --techniques ssao --tries 4 --cameras 3 --out "$tmp/few.txt" --json >"$tmp/few.json" 2>"$tmp/said"
+    [ "$(number "$tmp/few.json" fits)" = true ] && [ "$(number "$tmp/few.json" holds)" = false ]
+    [ "$(number "$tmp/few.json" error_holds)" = true ] && [ "$(number "$tmp/few.json" ms_holds)" = true ]
+    holds "($(number "$tmp/few.json" difference)) ^ 2 > 0.15 ^ 2"
+    [ ! -e "$tmp/few.txt" ]
+}
+
+test_a_setting_within_a_time_is_found_proven_and_written() {
+    tune --max-ms 100000 --techniques ssao --tries 4 --out "$tmp/timed.txt" --json >"$tmp/timed.json" 2>"$tmp/said"
+    [ "$(number "$tmp/timed.json" fits)" = true ] && [ "$(number "$tmp/timed.json" holds)" = true ] && [ -s "$tmp/timed.txt" ]
+    [ "$(number "$tmp/timed.json" ms_holds)" = true ]
+    holds "$(number "$tmp/timed.json" ms 1) > 0 && $(number "$tmp/timed.json" ms 2) > 0"
+    [ "$(number "$tmp/timed.json" tried)" -eq 4 ]
 }
 
 test_the_file_reproduces_what_was_found() {
     # a loose budget and many cameras, so that the proof holds
-    tune --max-error 0.5 --tries 6 --cameras 24 --r-max 0.6 --falloff linear --out "$tmp/loose.txt" >"$tmp/loose" 2>/dev/null
+    tune --max-error 0.5 --tries 6 --r-max 0.6 --falloff linear --out "$tmp/loose.txt" >"$tmp/loose" 2>/dev/null
     local file setting
     file=$(cat "$tmp/loose.txt")
     for text in '# date' '# machine' '# budget     error 0.5 at 64 x 36 pixels' '# predicted' '# held back' 'r_max = 0.6' 'falloff = linear'; do
@@ -57,7 +68,7 @@ test_the_file_reproduces_what_was_found() {
     # the last line says it in numbers
     setting=$(tail -n 1 "$tmp/loose")
     assert_holds "$setting" "$(sed -n 's/^technique = //p' "$tmp/loose.txt")"
-    [[ $setting =~ error\ 0\.[0-9]+,\ [0-9.]+\ ms\;\ held\ back\ 0\.[0-9]+ ]]
+    [[ $setting =~ error\ 0\.[0-9]+,\ [0-9.]+\ ms\;\ held\ back\ 0\.[0-9]+\ \([-+][0-9.]+\ %\ \+-\ [0-9.]+\ % ]]
     [[ $setting =~ [0-9]+\ of\ [0-9]+\ settings\ tried ]]
 }
 
@@ -70,10 +81,10 @@ test_when_nothing_fits_the_nearest_is_told_and_nothing_written() {
     [ ! -e "$tmp/none.txt" ]
 }
 
-test_a_time_that_is_not_kept_is_marked_and_nothing_written() {
+test_a_time_that_may_not_be_kept_is_marked_and_nothing_written() {
     # what is chosen on a machine at ease is timed again: whether it still is within is chance, what is said of it is not
     local code=0 fits p q s t
-    tune --max-ms 3 --techniques ssao --tries 12 --out "$tmp/timed.txt" --json >"$tmp/timed.json" 2>"$tmp/said" || code=$?
+    tune --max-ms 3 --cameras 6 --techniques ssao --tries 12 --out "$tmp/timed.txt" --json >"$tmp/timed.json" 2>"$tmp/said" || code=$?
     fits=$(number "$tmp/timed.json" fits)
     if [ "$fits" = true ]; then
         p=$(number "$tmp/timed.json" ms 1) q=$(number "$tmp/timed.json" ms 2)
