@@ -12,14 +12,14 @@ static const double upright_inertia = 1e9;
 
 /* ---- where it is ---- */
 
-static void to_ode(const double rotation[4], dQuaternion out)
+static void to_ode(const double rotation[4], double out[4])
 {
     out[0] = rotation[3], out[1] = rotation[0], out[2] = rotation[1], out[3] = rotation[2];
 }
 
 void nook_physics_place(physics_body *body)
 {
-    dQuaternion q;
+    double q[4];
     if (body->ode) {
         nook_pose at = nook_pose_multiply(&body->current, &body->body_from_centre);
         to_ode(at.rotation, q);
@@ -86,7 +86,7 @@ static void make_ode_body(nook_physics *p, physics_body *body, const nook_body_d
     nook_pose centre_from_body = nook_pose_inverse(&body->body_from_centre);
     for (uint32_t i = 0; i < body->shape_count; i++) {
         nook_pose offset = nook_pose_multiply(&centre_from_body, &body->shapes[i].body_from_shape);
-        dQuaternion q;
+        double q[4];
         to_ode(offset.rotation, q);
         dGeomSetBody(body->shapes[i].geom, body->ode);
         dGeomSetOffsetPosition(body->shapes[i].geom, offset.position[0], offset.position[1], offset.position[2]);

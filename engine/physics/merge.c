@@ -92,7 +92,7 @@ static bool apart(const dContactGeom *face, uint32_t i, uint32_t count)
 static uint32_t pick_corners(dContactGeom *face, uint32_t count)
 {
     const double start[3] = { 0.5773, 0.2113, 0.7886 }; /* any: it must only be the same in every step */
-    dVector3 across, along_face;
+    double across[3], along_face[3];
     swap(face, 0, farthest_along(face, 0, count, start));
     uint32_t corners = 1;
     if (count > 1)

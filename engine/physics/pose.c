@@ -29,7 +29,7 @@ static void normalize4(double q[4])
 
 nook_pose nook_pose_multiply(const nook_pose *a, const nook_pose *b)
 {
-    nook_pose out;
+    nook_pose out = nook_pose_identity();
     nook_pose_apply_point(a, b->position, out.position);
     nook_rotation_multiply(a->rotation, b->rotation, out.rotation);
     normalize4(out.rotation);
@@ -39,7 +39,7 @@ nook_pose nook_pose_multiply(const nook_pose *a, const nook_pose *b)
 nook_pose nook_pose_inverse(const nook_pose *pose)
 {
     const double *p = pose->position, back[3] = { -p[0], -p[1], -p[2] };
-    nook_pose out;
+    nook_pose out = nook_pose_identity();
     nook_rotation_inverse(pose->rotation, out.rotation);
     nook_rotation_apply(out.rotation, back, out.position);
     return out;

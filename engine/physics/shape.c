@@ -196,7 +196,7 @@ static void mass_of(const nook_shape *shape, dMass *mass)
     }
 }
 
-static void ode_rotation(const double rotation[4], dMatrix3 out)
+static void ode_rotation(const double rotation[4], double out[12])
 {
     const dQuaternion q = { rotation[3], rotation[0], rotation[1], rotation[2] };
     dRfromQ(out, q);
@@ -209,7 +209,7 @@ void nook_physics_spread_mass(const nook_body_desc *desc, dMass *out_mass, doubl
         const nook_shape *shape = &desc->shapes[i];
         const double *at = shape->body_from_shape.position;
         dMass mass;
-        dMatrix3 rotation;
+        double rotation[12]; /* a dMatrix3 */
         mass_of(shape, &mass);
         ode_rotation(shape->body_from_shape.rotation, rotation);
         dMassRotate(&mass, rotation);
