@@ -38,14 +38,15 @@ typedef struct ao_gpu_occluder {
 /** Block Counter of shaders/ao/counter.glsl. */
 typedef struct ao_counts {
     uint32_t fetches_low, fetches_high, outside;
+    uint32_t seen; /**< Full-size pixels with geometry that stepped upscaling has met. */
 } ao_counts;
 
 /** Textures at the trace's size. */
 typedef struct ao_trace {
-    nook_texture visibility;    /**< id 0 before the scale was used. */
-    nook_texture filtered;      /**< id 0 until a stepped upscaling needs it. */
+    nook_texture visibility; /**< id 0 before the scale was used. */
+    nook_texture filtered;   /**< RGBA32F: normal times depth, visibility; id 0 until a stepped upscaling needs it. */
     nook_texture depth, normal; /**< id 0 at scale 1, where the full ones are taken. */
-    int holds_view;             /**< Depth and normal were picked from those of the full size that are there now. */
+    int holds_view;             /**< Depth and normal are those of the last record's frame. */
 } ao_trace;
 
 enum { AO_SCALES = 3 /* 1, 2, 4 */ };
@@ -120,7 +121,7 @@ nook_result ao_begin(nook_ao *ao, const nook_ao_frame *frame, const ao_work *wor
 /** Depth and normals of the whole picture: techniques look beyond the part that is recorded. */
 nook_result ao_fill_inputs(nook_ao *ao, const nook_ao_frame *frame);
 /** From the trace's visibility to that of the picture. */
-nook_result ao_filter(nook_ao *ao);
+nook_result ao_filter(nook_ao *ao, const nook_ao_frame *frame);
 /** Runs one of our own shaders, 16 x 8 pixels a group, with what is bound. */
 nook_result ao_dispatch_over(nook_ao *ao, const char *path, const char *defines, uint32_t width, uint32_t height);
 nook_texture ao_host_texture(nook_ao_texture texture);

@@ -72,7 +72,7 @@ typedef struct nook_ao_frame {
     /** Only its visibility is computed, bit for bit as in a record of the whole picture; what lies outside stays as it was. So
         several techniques can share one picture. All zero: the whole. */
     nook_rectangle part;
-    /** 1: depth, normals and both matrices are those of the last record, which are not read again. */
+    /** 1: depth, normals and both matrices are those of the last record: what was made of them is used again. */
     int same_view;
     /** R32UI of the full size, cleared by the host; none: not counted. NOOK_AO_FETCH_UNITS for every texture fetch of a pixel of
         the part are added to it; those of a pixel of a coarser trace are shared out to the full-size pixels that it stands for. Slower. */

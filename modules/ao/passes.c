@@ -12,24 +12,24 @@ nook_result ao_dispatch_over(nook_ao *ao, const char *path, const char *defines,
     return result;
 }
 
-static nook_result dispatch_prepare(nook_ao *ao, const nook_ao_frame *frame)
+static void bind_host(nook_ao *ao, const nook_ao_frame *frame)
 {
     nook_bind_texture(ao->gpu, 0, ao_host_texture(frame->depth));
     nook_bind_texture(ao->gpu, 1, ao_host_texture(frame->normal.native ? frame->normal : frame->depth));
-    nook_bind_image(ao->gpu, 0, ao->targets.depth, GL_WRITE_ONLY);
-    nook_bind_image(ao->gpu, 1, ao->targets.normal, GL_WRITE_ONLY);
-    return ao_dispatch_over(ao, "shaders/ao/prepare.comp.glsl", "", ao->width, ao->height);
 }
 
-static nook_result dispatch_pick(nook_ao *ao)
+static nook_result dispatch_prepare(nook_ao *ao, const nook_ao_frame *frame, const char *defines, nook_texture depth,
+                                    nook_texture normal)
 {
-    const ao_targets *targets = &ao->targets;
-    const ao_trace *trace = &targets->traces[ao->scale];
-    nook_bind_texture(ao->gpu, 0, targets->depth);
-    nook_bind_texture(ao->gpu, 1, targets->normal);
-    nook_bind_image(ao->gpu, 0, trace->depth, GL_WRITE_ONLY);
-    nook_bind_image(ao->gpu, 1, trace->normal, GL_WRITE_ONLY);
-    return ao_dispatch_over(ao, "shaders/ao/pick.comp.glsl", "", trace->depth.width, trace->depth.height);
+    bind_host(ao, frame);
+    nook_bind_image(ao->gpu, 0, depth, GL_WRITE_ONLY);
+    nook_bind_image(ao->gpu, 1, normal, GL_WRITE_ONLY);
+    return ao_dispatch_over(ao, "shaders/ao/prepare.comp.glsl", defines, depth.width, depth.height);
+}
+
+static int is_stepped(const nook_ao *ao)
+{
+    return ao->scale > 0 && ao->shared.upscale;
 }
 
 nook_result ao_fill_inputs(nook_ao *ao, const nook_ao_frame *frame)
@@ -37,21 +37,24 @@ nook_result ao_fill_inputs(nook_ao *ao, const nook_ao_frame *frame)
     ao_targets *targets = &ao->targets;
     ao_trace *trace = &targets->traces[ao->scale];
     nook_result result = NOOK_OK;
-    if (!frame->same_view || !targets->holds_view) {
+    if (!frame->same_view) {
+        targets->holds_view = 0;
         for (int i = 0; i < AO_SCALES; i++)
             targets->traces[i].holds_view = 0;
-        result = dispatch_prepare(ao, frame);
+    }
+    if (!targets->holds_view && !is_stepped(ao)) { /* whose upscaling reads the host's own */
+        result = dispatch_prepare(ao, frame, "", targets->depth, targets->normal);
         targets->holds_view = result == NOOK_OK;
     }
     if (result == NOOK_OK && ao->scale > 0 && !trace->holds_view) {
-        result = dispatch_pick(ao);
+        result = dispatch_prepare(ao, frame, "#define AT_TRACE\n", trace->depth, trace->normal);
         trace->holds_view = result == NOOK_OK;
     }
     return result;
 }
 
-/** What guide.glsl binds; `samples` of the trace's visibility. */
-static void bind_guides(nook_ao *ao, nook_texture samples, nook_texture out)
+/** What filter.comp.glsl binds. */
+static void bind_filter(nook_ao *ao, nook_texture out)
 {
     const ao_targets *targets = &ao->targets;
     const ao_trace *trace = &targets->traces[ao->scale];
@@ -59,48 +62,45 @@ static void bind_guides(nook_ao *ao, nook_texture samples, nook_texture out)
     nook_bind_texture(ao->gpu, 1, targets->normal);
     nook_bind_texture(ao->gpu, 2, ao->scale > 0 ? trace->depth : targets->depth);
     nook_bind_texture(ao->gpu, 3, ao->scale > 0 ? trace->normal : targets->normal);
-    nook_bind_texture(ao->gpu, 4, samples);
+    nook_bind_texture(ao->gpu, 4, trace->visibility);
     nook_bind_image(ao->gpu, 0, out, GL_WRITE_ONLY);
 }
 
 /** Runs a shader that writes the wanted pixels of the picture. */
-static nook_result dispatch_full(nook_ao *ao, const char *path)
+static nook_result dispatch_full(nook_ao *ao, const char *path, const char *defines)
 {
     const ao_region *region = &ao->recorded;
-    return ao_dispatch_over(ao, path, "", (uint32_t)(region->full_end[0] - region->full_begin[0]),
+    return ao_dispatch_over(ao, path, defines, (uint32_t)(region->full_end[0] - region->full_begin[0]),
                             (uint32_t)(region->full_end[1] - region->full_begin[1]));
 }
 
 static nook_result filter_direct(nook_ao *ao)
 {
-    bind_guides(ao, ao->targets.traces[ao->scale].visibility, ao->targets.visibility);
-    return dispatch_full(ao, "shaders/ao/filter.comp.glsl");
+    bind_filter(ao, ao->targets.visibility);
+    return dispatch_full(ao, "shaders/ao/filter.comp.glsl", "");
 }
 
 /** Where the picture has 4 or 16 times the pixels of the trace, most of the filter's work is done once for all of them. */
-static nook_result filter_stepped(nook_ao *ao)
+static nook_result filter_stepped(nook_ao *ao, const nook_ao_frame *frame)
 {
     ao_trace *trace = &ao->targets.traces[ao->scale];
     const ao_region *region = &ao->recorded;
-    nook_texture samples = trace->visibility;
-    nook_result result = NOOK_OK;
-    if (ao->shared.filter != 0) {
-        result = ao_trace_fit_filtered(ao->gpu, trace);
-        if (result != NOOK_OK)
-            return result;
-        bind_guides(ao, samples, trace->filtered);
-        result = ao_dispatch_over(ao, "shaders/ao/filter.comp.glsl", "#define AT_TRACE\n",
-                                  (uint32_t)(region->end[0] - region->begin[0]),
-                                  (uint32_t)(region->end[1] - region->begin[1]));
-        samples = trace->filtered;
-    }
+    nook_result result = ao_trace_fit_filtered(ao->gpu, trace);
     if (result != NOOK_OK)
         return result;
-    bind_guides(ao, samples, ao->targets.visibility);
-    return dispatch_full(ao, "shaders/ao/upscale.comp.glsl");
+    bind_filter(ao, trace->filtered);
+    result =
+        ao_dispatch_over(ao, "shaders/ao/filter.comp.glsl", "#define AT_TRACE\n",
+                         (uint32_t)(region->end[0] - region->begin[0]), (uint32_t)(region->end[1] - region->begin[1]));
+    if (result != NOOK_OK)
+        return result;
+    bind_host(ao, frame);
+    nook_bind_texture(ao->gpu, 2, trace->filtered);
+    nook_bind_image(ao->gpu, 0, ao->targets.visibility, GL_WRITE_ONLY);
+    return dispatch_full(ao, "shaders/ao/upscale.comp.glsl", frame->normal.native ? "#define HAS_NORMAL\n" : "");
 }
 
-nook_result ao_filter(nook_ao *ao)
+nook_result ao_filter(nook_ao *ao, const nook_ao_frame *frame)
 {
-    return ao->scale > 0 && ao->shared.upscale ? filter_stepped(ao) : filter_direct(ao);
+    return is_stepped(ao) ? filter_stepped(ao, frame) : filter_direct(ao);
 }

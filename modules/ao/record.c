@@ -254,7 +254,7 @@ nook_result nook_ao_record(nook_ao *ao, const nook_ao_frame *frame)
         return result;
     result = trace(ao, slot, &pass);
     if (result == NOOK_OK && work.passes > 0)
-        result = ao_filter(ao);
+        result = ao_filter(ao, frame);
     if (nook_gpu_check(ao->gpu, "nook_ao_record") && result == NOOK_OK)
         result = NOOK_E_DEVICE; /* the check has logged what it was */
     return result;
@@ -291,7 +291,7 @@ void nook_ao_get_statistics(nook_ao *ao, nook_ao_statistics *out_statistics)
     ao->gpu->gl->MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     ao->gpu->gl->GetNamedBufferSubData(ao->counter.id, 0, sizeof counted, &counted);
     out_statistics->outside = counted.outside;
-    uint64_t pixels = count_geometry(ao);
+    uint64_t pixels = counted.seen ? counted.seen : count_geometry(ao);
     if (pixels)
         out_statistics->fetches_per_pixel =
             ((double)counted.fetches_high * 4294967296.0 + counted.fetches_low) / (double)pixels;

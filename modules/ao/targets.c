@@ -67,7 +67,7 @@ nook_result ao_trace_fit_filtered(nook_gpu *gpu, ao_trace *trace)
 {
     if (trace->filtered.id)
         return NOOK_OK;
-    return nook_texture_create_2d(gpu, GL_R32F, trace->visibility.width, trace->visibility.height, GL_NEAREST,
+    return nook_texture_create_2d(gpu, GL_RGBA32F, trace->visibility.width, trace->visibility.height, GL_NEAREST,
                                   &trace->filtered);
 }
 
@@ -79,8 +79,14 @@ static uint64_t pixels(const nook_texture *texture)
 uint64_t ao_targets_bytes(const ao_targets *targets, uint32_t scale)
 {
     const ao_trace *trace = &targets->traces[scale];
-    enum { DEPTH_BYTES = 4, NORMAL_BYTES = 4, VISIBILITY_BYTES = 4 }; /* R32F, RG16, R32F */
+    enum {
+        DEPTH_BYTES = 4,
+        NORMAL_BYTES = 4,
+        VISIBILITY_BYTES = 4,
+        FILTERED_BYTES = 16
+    }; /* R32F, RG16, R32F, RGBA32F */
     return DEPTH_BYTES * (pixels(&targets->depth) + pixels(&trace->depth)) +
            NORMAL_BYTES * (pixels(&targets->normal) + pixels(&trace->normal)) +
-           VISIBILITY_BYTES * (pixels(&targets->visibility) + pixels(&trace->visibility) + pixels(&trace->filtered));
+           VISIBILITY_BYTES * (pixels(&targets->visibility) + pixels(&trace->visibility)) +
+           FILTERED_BYTES * pixels(&trace->filtered);
 }

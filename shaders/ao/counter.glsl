@@ -4,6 +4,7 @@
 layout(std430, binding = 7) buffer Counter {
     uint fetches_low, fetches_high; // 64 bits
     uint outside;
+    uint seen; // full-size pixels with geometry, where the host's own depth is read last
 } counter;
 
 // What each full-size pixel has fetched, in sixteenths: nook_ao_frame.fetches.

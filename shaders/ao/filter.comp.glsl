@@ -5,12 +5,51 @@
 // upscale.comp.glsl comes after it.
 #include "ao/guide.glsl"
 layout(local_size_x = 16, local_size_y = 8) in;
+layout(binding = 2) uniform sampler2D depth_trace_texture;
+layout(binding = 3) uniform sampler2D normal_trace;
+layout(binding = 4) uniform sampler2D visibility_trace_texture;
+#ifdef AT_TRACE
+layout(binding = 0, rgba32f) uniform writeonly image2D filtered_out; // as upscale.comp.glsl reads it
+#else
+layout(binding = 0) uniform sampler2D depth_full;
+layout(binding = 1) uniform sampler2D normal_full;
+layout(binding = 0, r32f) uniform writeonly image2D visibility_out;
+#endif
 
 const int FILTER_NONE = 0, FILTER_DISC = 1, FILTER_TILE = 2; // ao.filter
 // A golden-angle disc: radius sqrt((i + 0.5) / 16); the 17th sample is the centre.
 const int RING = 16;
 const float GOLDEN_ANGLE = 2.39996323;
 const float SLANT_MIN = 0.5; // a disc of 4 pixels then still covers the 4x4 pixels that share one set of rays
+
+float trace_depth(ivec2 q)
+{
+    return fetch(depth_trace_texture, q).r;
+}
+
+float trace_visibility(ivec2 q)
+{
+    return fetch(visibility_trace_texture, q).r;
+}
+
+float guide_weight(Guide guide, ivec2 q, float depth)
+{
+    float plane = plane_distance(guide, view_position(q, depth));
+    float facing = max(dot(guide.normal, nook_octahedral_decode(fetch(normal_trace, q).xy)), 0.0);
+    return exp(-plane * plane) * pow(max(facing, 1e-6), frame.filter_normal);
+}
+
+void add_sample(inout Mean mean, Guide guide, ivec2 q, float window)
+{
+    if (window <= 0.0 || any(lessThan(q, ivec2(0))) || any(greaterThanEqual(q, frame.size)))
+        return;
+    float depth = trace_depth(q);
+    float weight = depth > 0.0 ? guide_weight(guide, q, depth) : 0.0;
+    if (!(weight >= WEIGHT_MIN)) // nor has one that is not a number
+        return;
+    mean.sum += window * weight * (trace_visibility(q) - mean.reference);
+    mean.weights += window * weight;
+}
 
 // Disc to ellipse: the surface's slant shortens it along the gradient of depth.
 mat2 ellipse(vec3 normal, vec3 position)
@@ -31,7 +70,7 @@ ivec2 nearest_sample(vec2 centre, Guide guide)
     float best_weight = 0.0;
     for (int i = 0; i < 4; i++) {
         ivec2 q = clamp(base + ivec2(i & 1, i >> 1), ivec2(0), frame.size - 1);
-        float depth = fetch(depth_trace, q).r;
+        float depth = trace_depth(q);
         if (depth <= 0.0)
             continue;
         vec2 apart = vec2(q) - centre;
@@ -70,12 +109,12 @@ void add_tile(inout Mean mean, Guide guide, vec2 centre)
 
 float filtered(vec2 centre, Guide guide, ivec2 p)
 {
-    #ifdef AT_TRACE
+#ifdef AT_TRACE
     ivec2 start = p;
 #else
     ivec2 start = frame.scale == 1 ? p : nearest_sample(centre, guide);
 #endif
-    Mean mean = Mean(fetch(visibility_trace, start).r, 0.0, 0.0);
+    Mean mean = Mean(trace_visibility(start), 0.0, 0.0);
     if (frame.filter_kind == FILTER_DISC)
         add_disc(mean, guide, centre, p);
     else if (frame.filter_kind == FILTER_TILE)
@@ -87,27 +126,33 @@ float filtered(vec2 centre, Guide guide, ivec2 p)
     return mean.weights > 0.0 ? mean.reference + mean.sum / mean.weights : mean.reference;
 }
 
+#ifdef AT_TRACE
 void main()
 {
-#ifdef AT_TRACE
     ivec2 p = frame.begin + ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(p, frame.end)))
         return;
-    float depth = fetch(depth_trace, p).r, result = 1.0;
-    if (depth > 0.0)
-        result = bounded(filtered(vec2(p), guide_trace(p, depth), p));
+    float depth = trace_depth(p), result = 1.0;
+    vec3 normal = vec3(0.0);
+    if (depth > 0.0) {
+        normal = nook_octahedral_decode(fetch(normal_trace, p).xy);
+        result = bounded(filtered(vec2(p), make_guide(view_position(p, depth), normal), p));
+    }
+    imageStore(filtered_out, p, vec4(normal * depth, result));
+    add_counts_of(p * frame.scale, frame.scale);
+}
 #else
+void main()
+{
     ivec2 p = frame.full_begin + ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(p, frame.full_end)))
         return;
     float depth = fetch(depth_full, p).r, result = 1.0;
-    if (depth > 0.0)
-        result = bounded(filtered(trace_centre(p), guide_full(p, depth), p));
-#endif
+    if (depth > 0.0) {
+        vec3 normal = nook_octahedral_decode(fetch(normal_full, p).xy);
+        result = bounded(filtered(trace_centre(p), make_guide(full_ray(vec2(p)) * depth, normal), p));
+    }
     imageStore(visibility_out, p, vec4(result));
-#ifdef AT_TRACE
-    add_counts_of(p * frame.scale, frame.scale);
-#else
     add_counts_of(p, 1);
-#endif
 }
+#endif

@@ -1,67 +1,28 @@
-// Device depth and world normals of the host -> distance along -Z and view normals: the inputs of every technique.
-#include "ao/frame.glsl"
-#include "ao/counter.glsl"
-#include "nook/octahedral.glsl"
+// Device depth and world normals of the host -> distance along -Z and view normals: the inputs of every technique. With AT_TRACE
+// defined only for the pixels of the trace, one of each block, never an average (it lies on no surface).
+#include "ao/host.glsl"
 layout(local_size_x = 16, local_size_y = 8) in;
-layout(binding = 0) uniform sampler2D device_depth;
-layout(binding = 1) uniform sampler2D normal_world;
 layout(binding = 0, r32f) uniform writeonly image2D depth_out;
 layout(binding = 1, rg16) uniform writeonly image2D normal_out;
-
-// Squares of these distances are still floats; what lies beyond (a depth buffer that holds rubbish) counts as not seen.
-const float NEAREST = 1e-15, FARTHEST = 1e15;
-
-// 0 where nothing is seen, and outside of the image.
-float distance_at(ivec2 p)
-{
-    if (any(lessThan(p, ivec2(0))) || any(greaterThanEqual(p, frame.full_size)))
-        return 0.0;
-    float d = fetch(device_depth, p).r;
-    float distance = frame.depth_to_distance.x / ((d - frame.depth_background) + frame.depth_to_distance.y);
-    bool seen = d != frame.depth_background && distance > NEAREST && distance < FARTHEST; // false for NaN
-    return seen ? distance : 0.0;
-}
-
-// The side of p along `direction` that leaves the surface least: a neighbour may lie on another object. In units of the
-// distance to p, so that neither a tiny nor a huge world leaves the range of floats.
-vec3 slope(ivec2 p, float centre, ivec2 direction)
-{
-    float before = distance_at(p - direction), after = distance_at(p + direction);
-    bool use_after = before <= 0.0 || (after > 0.0 && abs(after - centre) < abs(centre - before));
-    float other = use_after ? after : before;
-    if (other <= 0.0)
-        other = centre;
-    ivec2 neighbour = use_after ? p + direction : p - direction;
-    vec3 difference = full_ray(vec2(neighbour)) * (other / centre) - full_ray(vec2(p));
-    return use_after ? difference : -difference;
-}
-
-vec3 normal_at(ivec2 p, float depth)
-{
-    if (frame.has_normal != 0) {
-        vec3 world = nook_octahedral_decode(fetch(normal_world, p).xy);
-        mat3 rotation = mat3(frame.view_from_world[0].xyz, frame.view_from_world[1].xyz, frame.view_from_world[2].xyz);
-        vec3 view = rotation * world;
-        float size = dot(view, view);
-        if (size > 0.25 && size < 4.0) // false for NaN
-            return view * inversesqrt(size);
-    }
-    if (depth <= 0.0)
-        return vec3(0.0, 0.0, 1.0);
-    vec3 rebuilt = cross(slope(p, depth, ivec2(1, 0)), slope(p, depth, ivec2(0, 1)));
-    if (frame.ray_scale.x * frame.ray_scale.y < 0.0) // a flipped projection
-        rebuilt = -rebuilt;
-    float size = dot(rebuilt, rebuilt);
-    return size > 0.0 && size < 1e30 ? rebuilt * inversesqrt(size) : vec3(0.0, 0.0, 1.0);
-}
 
 void main()
 {
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+#ifdef AT_TRACE
+    if (any(greaterThanEqual(p, frame.size)))
+        return;
+    ivec2 from = full_pixel(p);
+#else
     if (any(greaterThanEqual(p, frame.full_size)))
         return;
-    float depth = distance_at(p);
+    ivec2 from = p;
+#endif
+    float depth = distance_at(from);
     imageStore(depth_out, p, vec4(depth));
-    imageStore(normal_out, p, vec4(nook_octahedral_encode(normal_at(p, depth)), 0.0, 0.0));
+    imageStore(normal_out, p, vec4(nook_octahedral_encode(normal_at(from, depth)), 0.0, 0.0));
+#ifdef AT_TRACE
+    add_counts_of(p * frame.scale, frame.scale);
+#else
     add_counts_of(p, 1);
+#endif
 }

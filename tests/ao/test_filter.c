@@ -121,7 +121,9 @@ static void test_filter_leaks_nothing_across_a_step_of_depth(void **state)
             for (uint32_t i = 0; i < 37 * 23; i++)
                 nook_fixture_view_set_pixel(view, i % 37, i / 37, i % 37 < edge ? 1.0 : 5.0, facing);
             ao_view_probe(view)->paint = paint_by_depth;
+            view->without_normals = edge % 2; /* rebuilt ones of a step face the camera too */
             ao_view_record(view, "probe");
+            view->without_normals = false;
             for (uint32_t i = 0; i < 37 * 23; i++) {
                 if (view->visibility[i] != (i % 37 < edge ? 0.0f : 1.0f))
                     fail_msg("%s, %s, %s, edge %u, pixel (%u, %u): %g", ways[k / 3].scale, ways[k / 3].upscale,
