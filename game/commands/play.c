@@ -34,7 +34,7 @@ static const char details[] =
 typedef struct play_request {
     nook_play_desc desc;
     bool headless;
-    const char *settings, *cache;
+    const char *settings, *cache, *pictures;
     nook_option_size size;
     nook_backend backend;
     char default_cache[NOOK_OPTION_PATH_MAX];
@@ -42,7 +42,9 @@ typedef struct play_request {
 
 static bool read_request(const nook_app *app, int argc, char **argv, play_request *out, int *out_exit_code)
 {
-    *out = (play_request){ .desc = { .root = app->root }, .size = { 1280, 720 }, .backend = NOOK_BACKEND_AUTO };
+    *out = (play_request){
+        .desc = { .root = app->root }, .size = { 1280, 720 }, .backend = NOOK_BACKEND_AUTO, .pictures = "out"
+    };
     out->cache = nook_option_default_cache(app, out->default_cache);
     const nook_option options[] = {
         { .name = "headless",
@@ -62,6 +64,11 @@ static bool read_request(const nook_app *app, int argc, char **argv, play_reques
         nook_option_row_settings(&out->settings,
                                  "technique and parameters, as ./nook tune writes them; default: the level's"),
         nook_option_row_size(&out->size, "of the window in pixels; default 1280x720"),
+        { .name = "out",
+          .kind = NOOK_OPTION_TEXT,
+          .target = &out->pictures,
+          .placeholder = "DIR",
+          .help = "where the pictures go that F12 takes; default out" },
         nook_option_row_backend(&out->backend),
         nook_option_row_cache(&out->cache, "baked volumes and the player's preferences; default: cache/ of Nook"),
     };
@@ -100,7 +107,8 @@ static int play_in_window(const nook_app *app, const play_request *request)
                                          .width = (uint32_t)request->size.width,
                                          .height = (uint32_t)request->size.height,
                                          .settings = request->settings,
-                                         .cache = request->cache };
+                                         .cache = request->cache,
+                                         .pictures = request->pictures };
     nook_play_window window;
     bool goes_on = true;
     nook_result result = nook_play_window_open(app->root, &desc, &window);

@@ -4,7 +4,6 @@
 #include <string.h>
 
 static const nook_overlay_colour white = { 255, 255, 255, 255 }, gold = { 255, 214, 120, 255 };
-static const nook_overlay_colour red = { 255, 110, 90, 255 };
 static const nook_overlay_colour soft = { 255, 255, 255, 150 };
 
 /* A label whose middle is at (x, y). */
@@ -35,9 +34,8 @@ static void draw_hint(nook_overlay *overlay, const nook_session_view *view, doub
     label_around(overlay, x, y, white, text);
 }
 
-static void draw_state(const nook_play_window *window, const nook_session_view *view)
+static void draw_state(const nook_play_window *window, nook_overlay *overlay, const nook_session_view *view)
 {
-    nook_overlay *overlay = window->overlay;
     double line = 1.6 * nook_overlay_letter_height(overlay), y = 0.5 * line;
     char text[160];
     if (view->locks > 0) {
@@ -59,38 +57,14 @@ static void draw_state(const nook_play_window *window, const nook_session_view *
     }
 }
 
-/* Lines of text from (x, y) down, in red. @return where the next line would stand */
-static double draw_lines(nook_overlay *overlay, double x, double y, const char *text)
+void nook_play_draw_hud(nook_play_window *window, nook_overlay *overlay)
 {
-    char line[256];
-    for (const char *at = text; *at;) {
-        size_t length = strcspn(at, "\n");
-        snprintf(line, sizeof line, "%.*s", (int)length, at);
-        y += nook_overlay_label(overlay, (double[]){ x, y }, red, line);
-        at += length + (at[length] == '\n');
-    }
-    return y;
-}
-
-/* What is wrong with shaders and code that were saved: what runs is what was good last. */
-static void draw_troubles(const nook_play_window *window)
-{
-    double letter = nook_overlay_letter_height(window->overlay), y = 6.0 * letter;
-    if (window->shaders)
-        y = draw_lines(window->overlay, 0.8 * letter, y, nook_shader_reload_status(window->shaders)->error);
-    draw_lines(window->overlay, 0.8 * letter, y, window->trouble);
-}
-
-void nook_play_draw_hud(nook_play_window *window)
-{
-    nook_overlay *overlay = window->overlay;
     const nook_session_view view = nook_session_look(window->play.session);
     double middle[2] = { 0.5 * window->width, 0.5 * window->height };
     double line = nook_overlay_letter_height(overlay);
     draw_cross(overlay, middle[0], middle[1], *view.looked_at || *view.carried);
     draw_hint(overlay, &view, middle[0], middle[1] + 3.0 * line);
-    draw_state(window, &view);
-    draw_troubles(window);
+    draw_state(window, overlay, &view);
     if (*view.message)
         label_around(overlay, middle[0], window->height - 2.5 * line,
                      view.status == NOOK_SESSION_PLAYING ? white : gold, view.message);
@@ -99,9 +73,8 @@ void nook_play_draw_hud(nook_play_window *window)
 }
 
 /* A slider, a choice or a box for each row of preferences.def. */
-static void draw_preference(nook_play_window *window, const nook_param *param)
+static void draw_preference(nook_play_window *window, nook_overlay *overlay, const nook_param *param)
 {
-    nook_overlay *overlay = window->overlay;
     char label[64];
     snprintf(label, sizeof label, "%s", param->name);
     for (char *c = label; *c; c++)
@@ -121,9 +94,8 @@ static void draw_preference(nook_play_window *window, const nook_param *param)
         nook_param_set(param, "preferences", &window->preferences, value);
 }
 
-void nook_play_draw_menu(nook_play_window *window)
+void nook_play_draw_menu(nook_play_window *window, nook_overlay *overlay)
 {
-    nook_overlay *overlay = window->overlay;
     double letter = nook_overlay_letter_height(overlay), width = 26.0;
     const nook_overlay_panel panel = { .title = "Paused##menu",
                                        .x = fmax(0.5 * (window->width - width * letter), 1.0),
@@ -144,12 +116,12 @@ void nook_play_draw_menu(nook_play_window *window)
         nook_overlay_separator(overlay);
         nook_overlay_text_coloured(overlay, soft, "F1 lists the keys");
         for (size_t i = 0; i < NOOK_COUNT(nook_preferences_table); i++)
-            draw_preference(window, &nook_preferences_table[i]);
+            draw_preference(window, overlay, &nook_preferences_table[i]);
     }
     nook_overlay_panel_end(overlay);
 }
 
-void nook_play_draw_help(nook_play_window *window)
+void nook_play_draw_help(nook_overlay *overlay)
 {
     static const char *const lines[][3] = {
         { "W A S D, arrows", "walk", "left stick" },
@@ -162,11 +134,9 @@ void nook_play_draw_help(nook_play_window *window)
         { "R, held", "turn it", "right bumper" },
         { "Backspace", "from the start", "Back" },
         { "Esc", "pause", "Start" },
-        { "F1", "these keys", "" },
         { "F11", "full screen", "" },
     };
-    nook_overlay *overlay = window->overlay;
-    const nook_overlay_panel panel = { .title = "Keys##help", .x = -10.0, .y = 10.0, .passive = true };
+    const nook_overlay_panel panel = { .title = "Playing##help", .x = 10.0, .y = -10.0, .passive = true };
     if (nook_overlay_panel_begin(overlay, &panel)) {
         for (size_t i = 0; i < NOOK_COUNT(lines); i++) {
             nook_overlay_text_coloured(overlay, gold, lines[i][0]);

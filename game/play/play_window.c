@@ -46,7 +46,7 @@ static nook_result open_stage(nook_play_window *w, const char *root, const nook_
         return nook_fail(NOOK_E_DEVICE, "play: there is no display to play on; give --replay or --pilot");
     w->width = desc->width;
     w->height = desc->height;
-    return nook_overlay_create(w->stage.gpu, &w->overlay);
+    return NOOK_OK;
 }
 
 static nook_result fill_stage(nook_play_window *w, const char *cache)
@@ -66,11 +66,25 @@ static nook_camera camera_of(const nook_play_window *w, double alpha)
     return nook_session_camera(w->play.session, alpha, (double)w->preferences.field_of_view * degree);
 }
 
-static nook_result begin(nook_play_window *w, const char *cache)
+static nook_result make_live(nook_play_window *w, const char *pictures)
 {
-    nook_result result = fill_stage(w, cache);
+    char notes[1024 + 64];
+    snprintf(notes, sizeof notes, "level = %s\nseed = %u", w->play.recording.level, w->play.seed);
+    const nook_live_desc live = { .stage = &w->stage,
+                                  .setting = &w->settings.setting,
+                                  .settings_path = *w->settings_path ? w->settings_path : NULL,
+                                  .pictures = pictures,
+                                  .notes = notes };
+    return nook_live_create(&live, &w->live);
+}
+
+static nook_result begin(nook_play_window *w, const nook_play_window_desc *desc)
+{
+    nook_result result = fill_stage(w, desc->cache);
     if (result == NOOK_OK)
         result = nook_play_begin(&w->play, w->stage.scene, w->stage.world);
+    if (result == NOOK_OK)
+        result = make_live(w, desc->pictures);
     if (result != NOOK_OK)
         return result;
     nook_session_place(w->play.session, 1.0);
@@ -101,7 +115,7 @@ nook_result nook_play_window_open(const char *root, const nook_play_window_desc 
     if (result == NOOK_OK)
         result = open_stage(w, root, desc);
     if (result == NOOK_OK)
-        result = begin(w, desc->cache);
+        result = begin(w, desc);
     if (result != NOOK_OK) {
         w->play.record_path[0] = '\0'; /* nothing was played */
         nook_play_window_close(w);
@@ -117,7 +131,7 @@ nook_result nook_play_window_close(nook_play_window *w)
         result = result == NOOK_OK ? written : result;
     }
     nook_shader_reload_destroy(w->shaders);
-    nook_overlay_destroy(w->overlay);
+    nook_live_destroy(w->live);
     nook_stage_close(&w->stage);
     memset(w, 0, sizeof *w);
     return result;
@@ -144,7 +158,7 @@ static void read_keys(nook_play_window *w, const nook_input *input)
 /* The mouse looks around while one plays, and is a pointer otherwise. */
 static void capture_mouse(nook_play_window *w, const nook_input *input)
 {
-    bool wanted = !w->paused && input->focused;
+    bool wanted = !w->paused && input->focused && !nook_live_wants_pointer(w->live);
     if (wanted != w->captured)
         nook_context_capture_mouse(w->stage.context, wanted);
     w->captured = wanted;
@@ -184,33 +198,22 @@ static nook_result draw_scene(nook_play_window *w)
     double alpha = w->left / NOOK_PHYSICS_STEP;
     nook_session_place(w->play.session, alpha);
     nook_camera camera = camera_of(w, alpha);
-    nook_result result = nook_stage_begin(&w->stage, &camera);
-    if (result == NOOK_OK)
-        result = nook_stage_occlude(&w->stage);
-    return result == NOOK_OK ? nook_stage_finish(&w->stage, true, NOOK_VIEW_LIT) : result;
+    return nook_live_draw(w->live, &camera);
 }
 
-static void draw_panels(nook_play_window *w, const nook_input *input, double seconds)
+static void draw_panels(nook_play_window *w)
 {
-    const nook_overlay_frame frame = { .width = w->width,
-                                       .height = w->height,
-                                       .scale = input->content_scale,
-                                       .seconds = fmax(seconds, 1e-4),
-                                       .input = w->captured ? NULL : input };
-    nook_overlay_begin(w->overlay, &frame);
-    nook_play_draw_hud(w);
+    nook_overlay *overlay = nook_live_overlay(w->live);
+    nook_play_draw_hud(w, overlay);
     if (w->paused)
-        nook_play_draw_menu(w);
+        nook_play_draw_menu(w, overlay);
     if (w->help)
-        nook_play_draw_help(w);
-    nook_overlay_end(w->overlay);
+        nook_play_draw_help(overlay);
 }
 
 static nook_result present(nook_play_window *w)
 {
-    const nook_framebuffer screen = { 0, w->width, w->height };
-    nook_renderer_present(w->stage.renderer, w->width, w->height);
-    nook_result result = nook_overlay_draw(w->overlay, screen);
+    nook_result result = nook_live_present(w->live, w->width, w->height);
     nook_context_present(w->stage.context);
     return result;
 }
@@ -223,34 +226,56 @@ static nook_result fit_picture(nook_play_window *w)
     return nook_stage_set_size(&w->stage, width, height);
 }
 
+/* What a frame's keys and mouse do. */
+static void use_input(nook_play_window *w, const nook_input *input, double seconds)
+{
+    nook_input rest;
+    read_keys(w, input);
+    capture_mouse(w, input);
+    nook_live_input(w->live, input, !w->captured, &rest);
+    if (!w->paused)
+        nook_controls_add(&w->controls, &rest, &w->preferences, seconds);
+    if (input->width > 0 && input->height > 0) {
+        w->width = input->width;
+        w->height = input->height;
+    }
+}
+
+/* What is wrong with shaders and code that were saved: what runs is what was good last. */
+static void show_troubles(nook_play_window *w)
+{
+    if (!w->shaders)
+        return;
+    nook_shader_reload_poll(w->shaders);
+    nook_live_message(w->live, "shaders", nook_shader_reload_status(w->shaders)->error);
+    nook_live_message(w->live, "code", w->trouble);
+}
+
+static nook_result draw(nook_play_window *w)
+{
+    nook_result result = fit_picture(w);
+    show_troubles(w);
+    if (w->has_window)
+        draw_panels(w);
+    if (result == NOOK_OK)
+        result = draw_scene(w);
+    if (result == NOOK_OK && w->has_window)
+        result = present(w);
+    w->stage.frame_index++;
+    return result;
+}
+
 nook_result nook_play_window_frame(nook_play_window *w, bool *out_goes_on)
 {
     nook_input input;
     nook_context_poll(w->stage.context, &input);
     double seconds = take_time(w);
-    if (w->has_window) {
-        read_keys(w, &input);
-        capture_mouse(w, &input);
-        if (w->captured)
-            nook_controls_add(&w->controls, &input, &w->preferences, seconds);
-    }
+    if (w->has_window)
+        use_input(w, &input, seconds);
     bool hidden = w->has_window && (input.width == 0 || input.height == 0);
-    if (w->has_window && !hidden) {
-        w->width = input.width;
-        w->height = input.height;
-    }
     nook_result result = w->paused && !w->restart ? NOOK_OK : run_ticks(w, seconds);
-    if (w->shaders)
-        nook_shader_reload_poll(w->shaders);
-    if (result == NOOK_OK && !hidden) {
-        result = fit_picture(w);
-        if (result == NOOK_OK)
-            result = draw_scene(w);
-        draw_panels(w, &input, seconds);
-        if (result == NOOK_OK)
-            result = present(w);
-        w->stage.frame_index++;
-    }
+    if (result == NOOK_OK && !hidden)
+        result = draw(w);
     nook_play_tell(w);
     *out_goes_on = result == NOOK_OK && !w->quit && (w->has_window || w->driven || !nook_play_is_free(&w->play));
     return result;

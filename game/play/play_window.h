@@ -9,7 +9,7 @@
  * Ownership  everything that lives is in one struct, so that it outlives the code that works on it.
  */
 #pragma once
-#include "engine/overlay/overlay.h"
+#include "game/live/live.h"
 #include "game/live/shader_reload.h"
 #include "game/play/controls.h"
 #include "game/play/play.h"
@@ -24,6 +24,7 @@ typedef struct nook_play_window_desc {
     uint32_t width, height; /**< Of the window, pixels. */
     const char *settings;   /**< Technique and parameters; NULL: the level's. */
     const char *cache;      /**< Baked volumes, and the player's preferences. */
+    const char *pictures;   /**< Folder of the pictures that the player takes. */
     bool driven;            /**< Who calls drives it: neither window, replay nor pilot is needed. */
     double frame_seconds;   /**< > 0: every frame takes this long. 0: what the clock says. */
 } nook_play_window_desc;
@@ -46,7 +47,7 @@ typedef struct nook_play_told {
 typedef struct nook_play_window {
     nook_play play;
     nook_stage stage;
-    nook_overlay *overlay;
+    nook_live *live;             /**< Views, panels and messages over the picture. */
     nook_shader_reload *shaders; /**< NULL: they cannot be watched, or nobody looks. */
     nook_settings_file settings;
     nook_controls controls;
