@@ -2,6 +2,8 @@
 #include "modules/ao_reference/tracer_internal.h"
 #include <embree3/rtcore.h>
 #include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -17,13 +19,16 @@ struct tracer {
     RTCScene world; /**< NULL before the first update. */
 };
 
-nook_result tracer_create(tracer **out_tracer)
+nook_result tracer_create(unsigned threads, tracer **out_tracer)
 {
+    char config[32] = "";
     *out_tracer = NULL;
     tracer *t = calloc(1, sizeof *t);
     if (!t)
         return nook_fail(NOOK_E_MEMORY, "reference: no memory");
-    t->device = rtcNewDevice(NULL);
+    if (threads)
+        snprintf(config, sizeof config, "threads=%u", threads);
+    t->device = rtcNewDevice(config);
     if (!t->device) {
         int code = (int)rtcGetDeviceError(NULL);
         free(t);
@@ -136,7 +141,7 @@ static void drop_removed(tracer *t, const nook_ao_pass *pass)
     }
 }
 
-static void add_instance(tracer *t, RTCScene mesh, const nook_matrix *view_from_mesh)
+static void add_instance(tracer *t, uint32_t number, RTCScene mesh, const nook_matrix *view_from_mesh)
 {
     float transform[16];
     RTCGeometry geometry = rtcNewGeometry(t->device, RTC_GEOMETRY_TYPE_INSTANCE);
@@ -145,7 +150,7 @@ static void add_instance(tracer *t, RTCScene mesh, const nook_matrix *view_from_
     rtcSetGeometryTimeStepCount(geometry, 1);
     rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, transform);
     rtcCommitGeometry(geometry);
-    rtcAttachGeometry(t->world, geometry);
+    rtcAttachGeometryByID(t->world, geometry, number); /* hits tell it */
     rtcReleaseGeometry(geometry);
 }
 
@@ -161,7 +166,7 @@ nook_result tracer_update(tracer *t, const nook_ao_pass *pass)
     for (uint32_t i = 0; i < pass->instance_count; i++) {
         RTCScene mesh = find_mesh(t, pass->meshes[pass->instances[i].mesh].id);
         if (mesh)
-            add_instance(t, mesh, &pass->instances[i].view_from_mesh);
+            add_instance(t, i, mesh, &pass->instances[i].view_from_mesh);
     }
     rtcCommitScene(t->world);
     return check_device(t);
@@ -212,5 +217,23 @@ void tracer_distances(const tracer *t, const float origin[3], const float direct
             out[i] = packet.ray.tfar[i] < 0.0f ? 0.0f : INFINITY;
         else
             out[i] = packet.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID ? INFINITY : packet.ray.tfar[i];
+    }
+}
+
+void tracer_hits(const tracer *t, const float origin[3], const float directions[3][TRACER_PACKET], uint32_t count,
+                 float limit, float *out_distances, uint32_t *out_instances)
+{
+    struct RTCIntersectContext context;
+    struct RTCRayHit8 packet = { 0 };
+    _Alignas(32) int valid[TRACER_PACKET];
+    rtcInitIntersectContext(&context);
+    fill_packet(origin, directions, limit, &packet);
+    for (uint32_t i = 0; i < TRACER_PACKET; i++)
+        valid[i] = i < count ? -1 : 0;
+    rtcIntersect8(valid, t->world, &context, &packet);
+    for (uint32_t i = 0; i < count; i++) {
+        bool hit = packet.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
+        out_distances[i] = hit ? packet.ray.tfar[i] : INFINITY;
+        out_instances[i] = hit ? packet.hit.instID[0][i] : UINT32_MAX;
     }
 }

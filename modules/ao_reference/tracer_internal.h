@@ -4,8 +4,8 @@
 
 typedef struct tracer tracer;
 
-/** @return NOOK_E_DEVICE, NOOK_E_MEMORY */
-nook_result tracer_create(tracer **out_tracer);
+/** @param threads  that build; 0: all cores @return NOOK_E_DEVICE, NOOK_E_MEMORY */
+nook_result tracer_create(unsigned threads, tracer **out_tracer);
 void tracer_destroy(tracer *t); /**< NULL is allowed. */
 
 /** Builds what changed since the last call: meshes by their id, instances always. @return NOOK_E_MEMORY */
@@ -28,3 +28,10 @@ enum { TRACER_PACKET = 8 };
  */
 void tracer_distances(const tracer *t, const float origin[3], const float directions[3][TRACER_PACKET], uint32_t count,
                       float limit, int any, float *out);
+
+/**
+ * The same, always with the first triangle, and whose it is.
+ * @param out_instances  count of them: into the pass's instances; UINT32_MAX on a miss, and for triangles of no instance
+ */
+void tracer_hits(const tracer *t, const float origin[3], const float directions[3][TRACER_PACKET], uint32_t count,
+                 float limit, float *out_distances, uint32_t *out_instances);
