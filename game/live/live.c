@@ -52,6 +52,7 @@ void nook_live_destroy(nook_live *live)
     if (!live)
         return;
     nook_overlay_destroy(live->overlay);
+    live_truth_release(live);
     live_times_release(live);
     live_targets_destroy(live);
     free(live);
@@ -64,7 +65,24 @@ nook_live_views *nook_live_state(nook_live *live)
 
 bool nook_live_wants_pointer(const nook_live *live)
 {
-    return live->panels || live->frozen;
+    return live->panels || live->freeze;
+}
+
+void nook_live_freeze(nook_live *live, bool frozen)
+{
+    live->freeze = frozen;
+}
+
+bool nook_live_frozen(const nook_live *live)
+{
+    return live->freeze;
+}
+
+void nook_live_suspend(nook_live *live)
+{
+    live_truth_stop(live);
+    live->frozen = false; /* the next draw freezes anew, if that is still asked for */
+    live->stale = true;
 }
 
 nook_overlay *nook_live_overlay(nook_live *live)

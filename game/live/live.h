@@ -51,6 +51,18 @@ nook_result nook_live_present(nook_live *live, uint32_t width, uint32_t height);
 /** The same into memory: RGB, top row first. @param out_rgb width * height * 3 bytes @return NOOK_E_MEMORY, NOOK_E_RANGE, NOOK_E_DEVICE */
 nook_result nook_live_picture(nook_live *live, uint32_t width, uint32_t height, uint8_t *out_rgb);
 
+/**
+ * Keeps the frame that the next draw makes, whatever the host's camera and world do, and traces its truth in the background; or
+ * goes on. The host pauses its world meanwhile. The key T does the same.
+ */
+void nook_live_freeze(nook_live *live, bool frozen);
+bool nook_live_frozen(const nook_live *live);
+/**
+ * Ends the threads of the truth, and makes the next draw do everything anew: before code is reloaded or removed, before meshes or
+ * volumes are removed from the AO, and after shaders have changed.
+ */
+void nook_live_suspend(nook_live *live);
+
 enum { NOOK_LIVE_MESSAGES_MAX = 6, NOOK_LIVE_MESSAGE_SIZE = 1024 };
 
 /**

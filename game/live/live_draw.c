@@ -65,35 +65,52 @@ static nook_result record_view(nook_live *live, uint32_t view, const nook_settin
     return result;
 }
 
-/* @param out_visibility  of the view; id 0: all open */
-static nook_result occlude_view(nook_live *live, uint32_t view, nook_texture *out_visibility)
+/* Fills in live->visibility of a view. What is exact is too slow for a frame: it is what has been traced behind it. */
+static nook_result occlude_view(nook_live *live, uint32_t view)
 {
     const nook_live_view *v = &live->views.views[view];
-    *out_visibility = (nook_texture){ 0 };
+    live->visibility[view] = (nook_texture){ 0 };
     if (v->open || !nook_live_mode_occludes(v->mode))
         return NOOK_OK;
     nook_setting setting = live_setting_of(live, view);
-    if (setting.technique->exact) /* too slow for a frame: what is traced behind it is shown */
+    if (setting.technique->exact) {
+        live->visibility[view] = live_truth_texture(live);
         return NOOK_OK;
+    }
     nook_result result = record_view(live, view, &setting);
     if (result == NOOK_OK)
-        *out_visibility = nook_stage_visibility(live->stage);
+        live->visibility[view] = nook_stage_visibility(live->stage);
     return result;
 }
 
 /* All views' visibility lies in one texture, so that light needs no turns with AO. */
-static nook_result draw_views(nook_live *live)
+static nook_result occlude_views(nook_live *live)
 {
-    nook_texture visibility[NOOK_LIVE_VIEWS_MAX];
-    const nook_texture truth = { 0 };
     nook_result result = NOOK_OK;
     for (uint32_t i = 0; i < live->views.count && result == NOOK_OK; i++)
-        result = occlude_view(live, i, &visibility[i]);
+        result = occlude_view(live, i);
+    return result;
+}
+
+static nook_result show_views(nook_live *live)
+{
+    nook_texture truth = live_truth_texture(live);
+    nook_result result = NOOK_OK;
     live_times_begin(live, LIVE_PASS_LIGHT);
     for (uint32_t i = 0; i < live->views.count && result == NOOK_OK; i++)
-        result = live_show_view(live, i, visibility[i], truth);
+        result = live_show_view(live, i, live->visibility[i], truth);
     live_times_end(live, LIVE_PASS_LIGHT);
     return result == NOOK_OK ? nook_stage_check(live->stage, "the views") : result;
+}
+
+/* Exact views show the truth as it is now. */
+static void refresh_truth(nook_live *live)
+{
+    for (uint32_t i = 0; i < live->views.count; i++) {
+        const nook_live_view *v = &live->views.views[i];
+        if (!v->open && nook_live_mode_occludes(v->mode) && live_setting_of(live, i).technique->exact)
+            live->visibility[i] = live_truth_texture(live);
+    }
 }
 
 /* What makes the picture, and what undo takes back: which view is active does neither. */
@@ -104,25 +121,58 @@ static nook_live_views state_of(const nook_live *live)
     return state;
 }
 
+/* A frame that stands still is not made again: the cores are for its truth. */
+static nook_result draw_views(nook_live *live, const nook_live_views *state)
+{
+    bool changed = live->stale || memcmp(&live->drawn, state, sizeof *state) != 0;
+    bool news = live->frozen && live_truth_update(live);
+    nook_result result = NOOK_OK;
+    if (!changed && !news)
+        return NOOK_OK;
+    live->stale = true;
+    if (changed)
+        result = occlude_views(live);
+    else
+        refresh_truth(live);
+    if (result == NOOK_OK)
+        result = show_views(live);
+    if (result != NOOK_OK)
+        return result;
+    if (live->frozen)
+        live_truth_measure(live);
+    live->drawn = *state;
+    live->stale = false;
+    return NOOK_OK;
+}
+
+/* The camera's state follows what was asked for; the frame that is frozen is drawn once more. */
+static nook_result follow(nook_live *live, const nook_camera *camera)
+{
+    const nook_stage *stage = live->stage;
+    bool resized = live->frame_width != stage->width || live->frame_height != stage->height;
+    bool begins = live->freeze && !live->frozen;
+    nook_result result = NOOK_OK;
+    if (live->frozen && !live->freeze)
+        live_truth_stop(live);
+    if (!live->frozen || !live->freeze || resized)
+        result = draw_gbuffer(live, live->frozen && live->freeze ? &live->camera : camera);
+    live->frozen = live->freeze;
+    if (result == NOOK_OK && live->frozen && (begins || resized))
+        live_truth_start(live);
+    return result;
+}
+
 nook_result nook_live_draw(nook_live *live, const nook_camera *camera)
 {
     nook_stage *stage = live->stage;
-    nook_result result = NOOK_OK;
     live_times_frame(live);
-    bool resized = live->frame_width != stage->width || live->frame_height != stage->height;
-    if (!live->frozen || resized)
-        result = draw_gbuffer(live, live->frozen ? &live->camera : camera);
+    nook_result result = follow(live, camera);
     if (result != NOOK_OK)
         return result;
-    nook_live_views_place(&live->views, stage->width, stage->height, live->places);
-    live_overlay_build(live);
+    live_overlay_build(live); /* before the views: what is changed in a panel is seen in the same frame */
     nook_live_views state = state_of(live);
     nook_live_views_place(&live->views, stage->width, stage->height, live->places);
-    if (live->stale || memcmp(&live->drawn, &state, sizeof state) != 0) {
-        result = draw_views(live);
-        live->drawn = state;
-        live->stale = result != NOOK_OK;
-    }
+    result = draw_views(live, &state);
     if (live->held == NOOK_LIVE_SPLITS_MAX && !(live->overlay_used && nook_overlay_busy(live->overlay)))
         nook_live_history_push(&live->history, &state);
     return result;

@@ -90,6 +90,8 @@ static void use_keys(nook_live *live, nook_input *rest)
         live->help = !live->help;
     if (take(rest, NOOK_KEY_F2))
         live->panels = !live->panels;
+    if (take(rest, NOOK_KEY_T))
+        live->freeze = !live->freeze;
 }
 
 /* ---- Mouse -------------------------------------------------------------------------------------------------------- */

@@ -2,6 +2,7 @@
 #pragma once
 #include "game/live/history.h"
 #include "game/live/live.h"
+#include "modules/ao_reference/refine.h"
 
 enum {
     LIVE_PATH_SIZE = 1024,
@@ -52,6 +53,27 @@ typedef struct live_targets {
     uint32_t vertex_array;                      /**< Empty: for full-screen triangles. */
 } live_targets;
 
+/** What a view's visibility differs from the truth by, over its pixels with geometry. */
+typedef struct live_error {
+    uint32_t pixels; /**< 0: not measured. */
+    double rmse, bias;
+} live_error;
+
+/** The reference of a frozen frame. */
+typedef struct live_truth {
+    nook_refine *refine;      /**< NULL before the first freeze. */
+    bool started;             /**< Since the freeze. */
+    double reach[3];          /**< r_max, falloff, tau that it is traced with. */
+    nook_texture texture;     /**< R32F of the frame's size. */
+    float *mean, *visibility; /**< Of that size: the truth, and what the views show. Owned. */
+    uint32_t rays;            /**< In `mean`; 0: none yet. */
+    double noise;             /**< Of it, root mean square. */
+    live_error errors[NOOK_LIVE_VIEWS_MAX];
+    bool probed;
+    uint32_t pixel[2]; /**< That was probed. */
+    nook_refine_probe_result probe;
+} live_truth;
+
 struct nook_live {
     nook_stage *stage;
     nook_overlay *overlay;
@@ -63,26 +85,29 @@ struct nook_live {
     char settings_path[LIVE_PATH_SIZE], pictures[LIVE_PATH_SIZE], notes[LIVE_PATH_SIZE];
     char remembered[LIVE_TECHNIQUES][NOOK_SETTING_TEXT_MAX]; /**< Of each of the AO's techniques: its last setting. */
     live_message messages[NOOK_LIVE_MESSAGES_MAX];
-    char note[LIVE_NOTE_SIZE];          /**< What was done last ("saved ..."), for some seconds. */
-    double note_ms;                     /**< When it was. */
-    bool help, panels;                  /**< Shown. */
-    bool times_shown;                   /**< In the last frame: passes are timed. */
-    bool pointer;                       /**< The mouse is ours too in this frame. */
-    bool overlay_begun, overlay_used;   /**< In this frame. */
-    uint32_t hovered, held;             /**< Borders; NOOK_LIVE_SPLITS_MAX: none. */
-    double mouse[2];                    /**< Parts of the window from its top left. */
-    uint32_t width, height;             /**< Of the window, pixels; 0 before the first input. */
-    double scale;                       /**< Of letters. */
-    nook_input input;                   /**< Of this frame. */
-    double input_ms;                    /**< When it came; 0: none has. */
-    double seconds;                     /**< Since the one before. */
-    nook_overlay_taken taken;           /**< Of this frame's input. */
-    bool view_recorded;                 /**< The AO has read this G-buffer. */
-    bool frozen;                        /**< The G-buffer and the world stay. */
-    bool stale;                         /**< Something other than `views` has changed since the picture was made. */
-    uint32_t frame_width, frame_height; /**< Of the stage when the G-buffer was drawn; 0: never. */
-    nook_camera camera;                 /**< Of the G-buffer. */
+    char note[LIVE_NOTE_SIZE];        /**< What was done last ("saved ..."), for some seconds. */
+    double note_ms;                   /**< When it was. */
+    bool help, panels;                /**< Shown. */
+    bool times_shown;                 /**< In the last frame: passes are timed. */
+    bool pointer;                     /**< The mouse is ours too in this frame. */
+    bool overlay_begun, overlay_used; /**< In this frame. */
+    uint32_t hovered, held;           /**< Borders; NOOK_LIVE_SPLITS_MAX: none. */
+    double mouse[2];                  /**< Parts of the window from its top left. */
+    uint32_t width, height;           /**< Of the window, pixels; 0 before the first input. */
+    double scale;                     /**< Of letters. */
+    nook_input input;                 /**< Of this frame. */
+    double input_ms;                  /**< When it came; 0: none has. */
+    double seconds;                   /**< Since the one before. */
+    nook_overlay_taken taken;         /**< Of this frame's input. */
+    bool view_recorded;               /**< The AO has read this G-buffer. */
+    bool freeze;                      /**< Asked for: from the next draw on. */
+    bool frozen;                      /**< The G-buffer and the world stay. */
+    bool stale;                       /**< Something other than `views` has changed since the picture was made. */
+    nook_texture visibility[NOOK_LIVE_VIEWS_MAX]; /**< That the views show; id 0: all open. */
+    uint32_t frame_width, frame_height;           /**< Of the stage when the G-buffer was drawn; 0: never. */
+    nook_camera camera;                           /**< Of the G-buffer. */
     live_targets targets;
+    live_truth truth;
     live_times times;
 };
 
@@ -108,11 +133,29 @@ nook_setting live_setting_of(nook_live *live, uint32_t view);
 void live_set_setting(nook_live *live, uint32_t view, const nook_setting *setting);
 /** Puts the shared numbers and a view's setting into the AO. */
 nook_result live_apply(nook_live *live, const nook_setting *setting);
+/** The shared numbers alone. */
+nook_result live_apply_shared(nook_live *live);
 /** Takes the shared numbers and every technique's parameters from the AO. */
 void live_take_over(nook_live *live);
 /** Chooses a technique for the active view by its number in the AO's list; its parameters as they come. */
 void live_choose_technique(nook_live *live, uint32_t number);
 nook_result live_save(nook_live *live);
+
+/* live_truth.c */
+/** Traces the G-buffer that there is from now on. A failure is a note: the picture is frozen all the same. */
+void live_truth_start(nook_live *live);
+void live_truth_stop(nook_live *live);
+void live_truth_release(nook_live *live);
+/** Takes what has been traced since the last call. @return true: there is a new picture of it, or none any more */
+bool live_truth_update(nook_live *live);
+/** What each view that has visibility is off by. */
+void live_truth_measure(nook_live *live);
+/** id 0: there is none yet */
+nook_texture live_truth_texture(const nook_live *live);
+
+/* live_probe.c */
+/** The pixel under the mouse, while there is a truth. */
+void live_probe(nook_live *live);
 
 /* live_overlay.c */
 /** Begins the overlay's frame, unless it is. */

@@ -50,19 +50,19 @@ static void show_borders(nook_live *live, double width, double height)
     }
 }
 
-/* "volume, error" */
+/* "volume, error: RMSE 0.0213, bias +0.0040" */
 static void describe_view(const nook_live *live, uint32_t view, char *out, size_t capacity)
 {
     const nook_live_view *v = &live->views.views[view];
-    int length = (int)strcspn(v->setting, " ");
-    bool occludes = nook_live_mode_occludes(v->mode);
-    const char *mode = nook_live_mode_name(v->mode);
-    if (v->open && occludes)
-        snprintf(out, capacity, "none, %s", mode);
-    else if (occludes)
-        snprintf(out, capacity, "%.*s, %s", length, v->setting, mode);
-    else
+    const live_error *error = &live->truth.errors[view];
+    const char *mode = nook_live_mode_name(v->mode), *technique = v->open ? "none" : v->setting;
+    if (!nook_live_mode_occludes(v->mode)) {
         snprintf(out, capacity, "%s", mode);
+        return;
+    }
+    int used = snprintf(out, capacity, "%.*s, %s", (int)strcspn(technique, " "), technique, mode);
+    if (error->pixels > 0 && used > 0 && (size_t)used < capacity)
+        snprintf(out + used, capacity - (size_t)used, ": RMSE %.4f, bias %+.4f", error->rmse, error->bias);
 }
 
 static void show_names(nook_live *live, double width, double height)
@@ -125,6 +125,20 @@ static void show_help(nook_live *live)
     nook_overlay_panel_end(live->overlay);
 }
 
+/* "frozen (T): truth by 248 rays, noise 0.0031" */
+static void show_frozen(nook_live *live, double height)
+{
+    char text[128];
+    double size[2];
+    if (live->truth.rays > 0)
+        snprintf(text, sizeof text, "frozen (T): truth by %u rays, noise %.4f", live->truth.rays, live->truth.noise);
+    else
+        snprintf(text, sizeof text, "frozen (T)%s", live->truth.started ? ": the first rays are on their way" : "");
+    nook_overlay_label_size(live->overlay, text, size);
+    const double at[2] = { 8.0 * live->scale, height - 2.2 * size[1] - 8.0 * live->scale };
+    nook_overlay_label(live->overlay, at, white, text);
+}
+
 static bool has_note(const nook_live *live)
 {
     return live->note[0] && nook_clock_ms() - live->note_ms < note_ms;
@@ -165,10 +179,13 @@ void live_overlay_build(nook_live *live)
         show_borders(live, width, height);
         show_names(live, width, height);
     }
+    if (live->frozen)
+        show_frozen(live, height);
     if (has_note(live))
         show_note(live, height);
     if (live->panels)
         show_panels(live, width);
+    live_probe(live);
     if (live->help)
         show_help(live);
     if (has_messages(live))

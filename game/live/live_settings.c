@@ -95,11 +95,15 @@ void live_choose_technique(nook_live *live, uint32_t number)
 
 nook_result live_apply(nook_live *live, const nook_setting *setting)
 {
+    nook_result result = nook_setting_apply(live->stage->ao, setting);
+    return result == NOOK_OK ? live_apply_shared(live) : result;
+}
+
+nook_result live_apply_shared(nook_live *live)
+{
     const nook_live_views *views = &live->views;
     nook_ao *ao = live->stage->ao;
-    nook_result result = nook_setting_apply(ao, setting);
-    if (result == NOOK_OK)
-        result = nook_ao_set_param(ao, "ao.r_max", views->r_max);
+    nook_result result = nook_ao_set_param(ao, "ao.r_max", views->r_max);
     if (result == NOOK_OK)
         result = nook_ao_set_param(ao, "ao.falloff", views->falloff);
     return result == NOOK_OK ? nook_ao_set_param(ao, "ao.falloff_tau", views->falloff_tau) : result;

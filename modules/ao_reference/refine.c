@@ -62,7 +62,7 @@ static void trace_rows(void *user, size_t first, size_t last, unsigned worker)
 static uint32_t rays_of_picture(uint32_t picture)
 {
     uint32_t doublings = picture / 2;
-    return doublings > 5 ? RAYS_LAST : RAYS_FIRST << doublings;
+    return doublings > 5 ? (uint32_t)RAYS_LAST : (uint32_t)RAYS_FIRST << doublings;
 }
 
 /** A picture belongs to its half; when both have as many rays, they can be read. */

@@ -1,9 +1,11 @@
 /* Views side by side without a window: made-up keys and mice, pictures compared byte for byte. */
 #include "game/compare/camera.h"
-#include "game/live/live.h"
+#include "game/live/live_internal.h"
 #include "game/settings/settings_file.h"
+#include "modules/measure/errors.h"
 #include "tests/support/log_capture.h"
 #include "tests/support/scratch.h"
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -11,6 +13,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include <cmocka.h>
 
@@ -402,6 +405,145 @@ static void test_size_of_the_window_may_differ_from_the_picture_s(void **state)
     assert_int_equal(result, NOOK_E_RANGE);
 }
 
+/* Frames until so many rays of the truth are there. */
+static void wait_for_rays(fixture *f, uint32_t rays)
+{
+    for (int i = 0; f->live->truth.rays < rays; i++) {
+        assert_true(i < 5000);
+        usleep(2000);
+        step(f);
+    }
+}
+
+static void test_frozen_frame_stays_whatever_the_camera_does(void **state)
+{
+    fixture *f = *state;
+    uint8_t *before = malloc(SIZE);
+    const nook_camera camera = f->camera;
+    press(f, NOOK_KEY_T);
+    assert_true(nook_live_frozen(f->live) && nook_live_wants_pointer(f->live));
+    nook_renderer_read(f->stage.renderer, before);
+    f->camera.view_from_world.m[12] += 0.3;
+    step(f);
+    nook_renderer_read(f->stage.renderer, f->picture);
+    assert_memory_equal(before, f->picture, SIZE);
+    press(f, NOOK_KEY_T);
+    nook_renderer_read(f->stage.renderer, f->picture);
+    assert_memory_not_equal(before, f->picture, SIZE);
+    f->camera = camera;
+    free(before);
+}
+
+/* A view's error by the definition that reports use. */
+static void expect_error(const fixture *f, uint32_t view)
+{
+    const live_truth *t = &f->live->truth;
+    const nook_rectangle *place = &f->live->places[view];
+    uint32_t width, height;
+    const float *depth = nook_refine_depth(t->refine, &width, &height);
+    uint8_t *mask = calloc(width, height);
+    nook_errors errors;
+    for (uint32_t y = place->y; y < place->y + place->height; y++) {
+        for (uint32_t x = place->x; x < place->x + place->width; x++)
+            mask[y * width + x] = depth[y * width + x] > 0.0f;
+    }
+    assert_int_equal(nook_errors_measure(t->visibility, t->mean, mask, (size_t)width * height, &errors), NOOK_OK);
+    free(mask);
+    assert_int_equal(t->errors[view].pixels, errors.count);
+    assert_true(errors.count > 1000 && errors.rmse > 0.001);
+    assert_true(fabs(t->errors[view].rmse - errors.rmse) < 1e-9 && fabs(t->errors[view].bias - errors.bias) < 1e-9);
+}
+
+static void test_errors_of_views_are_those_of_the_pictures(void **state)
+{
+    fixture *f = *state;
+    nook_live_views *views = nook_live_state(f->live);
+    nook_live_views_set_count(views, 3);
+    set_setting(f, 0, "volume rays=16 ao.filter=none");
+    set_setting(f, 1, "ssao samples=2");
+    views->views[2].open = true;
+    press(f, NOOK_KEY_T);
+    wait_for_rays(f, 24);
+    expect_error(f, 0);
+    expect_error(f, 1);
+    assert_true(f->live->truth.errors[2].bias > 0.0); /* all open is too bright */
+    double before = f->live->truth.errors[1].rmse;
+    set_setting(f, 1, "volume rays=16 ao.filter=none"); /* measured at once as it is now */
+    step(f);
+    expect_error(f, 1);
+    assert_true(f->live->truth.errors[1].rmse != before);
+}
+
+static void test_reference_s_view_shows_the_truth_as_it_comes(void **state)
+{
+    fixture *f = *state;
+    nook_live_views *views = nook_live_state(f->live);
+    set_setting(f, 0, "reference");
+    views->views[0].mode = NOOK_LIVE_VISIBILITY;
+    press(f, NOOK_KEY_T);
+    double noise = 1.0;
+    for (uint32_t rays = 8; rays <= 56; rays = 2 * rays + 8) {
+        wait_for_rays(f, rays);
+        assert_true(f->live->truth.noise < 0.8 * noise);
+        noise = f->live->truth.noise;
+    }
+    assert_true(f->live->visibility[0].id == f->live->truth.texture.id);
+    assert_int_equal(f->live->truth.errors[0].pixels, 0);
+    nook_renderer_read(f->stage.renderer, f->picture);
+    double sum = 0.0, truth = 0.0;
+    for (size_t i = 0; i < WIDTH * HEIGHT; i++)
+        sum += f->picture[3 * i] / 255.0, truth += (double)f->live->truth.mean[i];
+    assert_true(fabs(sum - truth) < 0.01 * truth && truth < 0.999 * WIDTH * HEIGHT);
+}
+
+static void test_truth_follows_the_reach_that_is_changed(void **state)
+{
+    fixture *f = *state;
+    press(f, NOOK_KEY_T);
+    wait_for_rays(f, 8);
+    nook_live_state(f->live)->r_max *= 0.1;
+    step(f);
+    assert_int_equal(f->live->truth.rays, 0);
+    wait_for_rays(f, 8);
+    assert_true(f->live->truth.reach[0] == nook_live_state(f->live)->r_max);
+}
+
+static void test_frame_of_another_size_is_frozen_anew(void **state)
+{
+    fixture *f = *state;
+    press(f, NOOK_KEY_T);
+    wait_for_rays(f, 8);
+    assert_int_equal(nook_stage_set_size(&f->stage, 100, 80), NOOK_OK);
+    step(f);
+    wait_for_rays(f, 8);
+    assert_int_equal(f->live->truth.texture.width, 100);
+    assert_int_equal(nook_stage_set_size(&f->stage, WIDTH, HEIGHT), NOOK_OK);
+    step(f);
+    nook_live_suspend(f->live); /* as before a reload: it is traced again after it */
+    assert_false(nook_refine_look(f->live->truth.refine).running);
+    step(f);
+    wait_for_rays(f, 8);
+}
+
+static void test_probe_tells_of_the_pixel_under_the_mouse(void **state)
+{
+    fixture *f = *state;
+    press(f, NOOK_KEY_T);
+    wait_for_rays(f, 8);
+    uint32_t probed = 0;
+    for (double x = 0.1; x < 1.0; x += 0.2) {
+        f->input.mouse_x = x * WIDTH, f->input.mouse_y = 0.6 * HEIGHT, f->input.mouse_dx = 1.0;
+        step(f);
+        const live_truth *t = &f->live->truth;
+        assert_int_equal(t->pixel[0], (uint32_t)(x * WIDTH));
+        assert_int_equal(t->pixel[1], (uint32_t)(0.4 * HEIGHT));
+        probed += t->probed;
+        if (t->probed)
+            assert_true(fabs(t->probe.visibility - (double)t->mean[t->pixel[1] * WIDTH + t->pixel[0]]) < 0.5);
+    }
+    assert_true(probed > 0);
+}
+
 static void test_stage_may_change_its_size(void **state)
 {
     fixture *f = *state;
@@ -469,6 +611,12 @@ int main(void)
         TEST(test_messages_stay_until_they_are_taken_back),
         TEST(test_setting_that_cannot_be_read_any_more_becomes_its_technique),
         TEST(test_size_of_the_window_may_differ_from_the_picture_s),
+        TEST(test_frozen_frame_stays_whatever_the_camera_does),
+        TEST(test_errors_of_views_are_those_of_the_pictures),
+        TEST(test_reference_s_view_shows_the_truth_as_it_comes),
+        TEST(test_truth_follows_the_reach_that_is_changed),
+        TEST(test_frame_of_another_size_is_frozen_anew),
+        TEST(test_probe_tells_of_the_pixel_under_the_mouse),
         TEST(test_stage_may_change_its_size),
         TEST(test_times_have_a_panel_of_their_own_only_where_there_is_room),
     };
