@@ -65,6 +65,8 @@ end
 local libraries = {} -- names in link order: what uses stands before what is used
 
 -- pattern: "/**.c" is the folder with all below it, "/*.c" without. A folder without sources (headers only, or not written yet) makes no library and is not linked.
+local engine, exchanged = {}, {} -- archives of engine/, and those of game/ and modules/ that are no techniques; in link order
+
 local function library(name, make_project, folder, pattern)
   local sources = os.matchfiles(folder .. pattern)
   if #sources == 0 then return end
@@ -72,6 +74,11 @@ local function library(name, make_project, folder, pattern)
   make_project(name, "StaticLib")
   files { folder .. pattern }
   table.insert(libraries, 1, name)
+  if folder:match("^engine/") then
+    table.insert(engine, 1, name)
+  elseif not folder:match("^modules/ao_") then
+    table.insert(exchanged, 1, name)
+  end
 end
 
 -- Parts, lowest first; a part uses only what stands above it here (docs/architecture.md).
@@ -95,16 +102,43 @@ library("nook_fixture", c_project, "modules/fixture", "/**.c")
 library("nook_measure", c_project, "modules/measure", "/**.c")
 library("nook_render", c_project, "engine/render", "/**.c")
 library("nook_game", c_project, "game", "/**.c")
-removefiles { "game/main.c" } -- of nook_game, the last project made
+removefiles { "game/main.c", "game/entry/*.c" } -- of nook_game, the last project made
 
 local function link_everything()
   links(libraries)
   links { "tinygltf", "imgui", "stb", "embree3", "glfw", "uv", "ode", "zstd", "xxhash", "z", "bz2", "stdc++", "dl", "m" }
 end
 
+-- Shared libraries find the engine in the program that loads them: all of it is there, and its names can be seen.
+local function export_engine()
+  linkoptions { "-rdynamic", "-Wl,--push-state,--whole-archive" }
+  for _, name in ipairs(engine) do linkoptions { "bin/lib" .. name .. ".a" } end
+  linkoptions { "-Wl,--pop-state" }
+end
+
 c_project("nook", "ConsoleApp")
 files { "game/main.c" }
+export_engine()
+linkoptions { "-Wl,--disable-new-dtags", "-Wl,-rpath,'$$ORIGIN/lib'" } -- of a bundle; these libraries find each other there, too
 link_everything()
+
+-- Code that is exchanged while it runs (engine/module): what the program has linked in, once more as a shared library. Same
+-- objects; only the entry is compiled, and seen from outside.
+local function exchangeable(name, entry, archives)
+  if #os.matchfiles(entry) == 0 then return end
+  c_project(name, "SharedLib")
+  targetprefix ""
+  files { entry }
+  linkoptions { "-Wl,-Bsymbolic", "-Wl,--exclude-libs,ALL" }
+  links(archives)
+end
+
+exchangeable("game", "game/entry/game_entry.c", exchanged)
+for _, folder in ipairs(techniques) do
+  local name = path.getname(folder)
+  exchangeable(name, "modules/ao/entry/technique_entry.c", { "nook_" .. name, "nook_ao" })
+  defines { "NOOK_TECHNIQUE=" .. name:match("^ao_(.*)") }
+end
 
 library("nook_testing", c_project, "tests/support", "/**.c")
 
@@ -116,7 +150,7 @@ for _, file in ipairs(tests) do
     c_project("test_" .. folder:gsub("/", "_") .. subject, "ConsoleApp")
     targetdir(out .. "/tests")
     files { file }
-    if folder == "module/" then linkoptions { "-rdynamic" } end -- its libraries find the engine in the test
+    if folder == "module/" then export_engine() end
     if folder == "embed/" then -- a host of the AO core alone: that this links is a part of the test
       links { "nook_ao_volume", "nook_ao_ssao", "nook_ao", "nook_bake", "nook_gpu", "nook_core", "zstd", "xxhash", "dl", "m" }
     else

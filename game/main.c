@@ -16,7 +16,13 @@ static bool cut_name(char *path)
     return true;
 }
 
-/** NOOK_ROOT, else the folder of the binary, <root>/build/<kind>/bin/nook, four parts up. */
+static bool has_shaders(const char *root)
+{
+    char shaders[PATH_MAX + 16];
+    return nook_directory_exists(nook_path_join(shaders, sizeof shaders, root, "shaders"));
+}
+
+/** NOOK_ROOT, else the folder of the binary, of a bundle, else <root>/build/<kind>/bin/nook, four parts up. */
 static bool find_root(char *out, size_t capacity)
 {
     const char *given = getenv("NOOK_ROOT");
@@ -31,14 +37,10 @@ static bool find_root(char *out, size_t capacity)
     for (int part = 0; part < 4; part++) {
         if (!cut_name(out))
             return false;
+        if (part == 0 && has_shaders(out))
+            return true;
     }
     return true;
-}
-
-static bool has_shaders(const char *root)
-{
-    char shaders[PATH_MAX + 16];
-    return nook_directory_exists(nook_path_join(shaders, sizeof shaders, root, "shaders"));
 }
 
 int main(int argc, char **argv)

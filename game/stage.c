@@ -134,6 +134,12 @@ nook_result nook_stage_fill(nook_stage *stage, const nook_game_world_desc *desc)
     return result == NOOK_OK ? nook_renderer_create(stage->gpu, stage->width, stage->height, &stage->renderer) : result;
 }
 
+nook_result nook_stage_renew(nook_stage *stage)
+{
+    nook_ao_set_progress(stage->ao, pass_progress_on, stage);
+    return nook_game_world_renew(stage->world);
+}
+
 void nook_stage_close(nook_stage *stage)
 {
     nook_renderer_destroy(stage->renderer);

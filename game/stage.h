@@ -51,6 +51,12 @@ nook_result nook_stage_open(const nook_stage_desc *desc, nook_stage *out_stage);
  */
 nook_result nook_stage_fill(nook_stage *stage, const nook_game_world_desc *desc);
 
+/**
+ * After code was loaded anew: the world's systems, and whom the AO tells of long records. Its techniques are replaced by
+ * nook_ao_replace_technique. @return as nook_world_replace_system
+ */
+nook_result nook_stage_renew(nook_stage *stage);
+
 void nook_stage_close(nook_stage *stage); /**< Zeroed stages are allowed; becomes zero. */
 
 /** @return why not; the stage must be closed then */

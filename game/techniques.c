@@ -11,7 +11,9 @@
 #include <stdio.h>
 #include <string.h>
 
-static const nook_ao_technique *const techniques[] = {
+/* Those that are linked in, until nook_techniques_replace: the one thing that is not constant here, as the code that is
+   loaded is one for the whole program. */
+static const nook_ao_technique *techniques[] = {
     &nook_ao_volume_technique, &nook_ao_ssao_technique, &nook_ao_hsao_technique,
     &nook_ao_hbao_technique,   &nook_ao_gtao_technique, &nook_ao_reference_technique,
 };
@@ -20,6 +22,14 @@ const nook_ao_technique *const *nook_techniques(size_t *out_count)
 {
     *out_count = NOOK_COUNT(techniques);
     return techniques;
+}
+
+void nook_techniques_replace(const nook_ao_technique *technique)
+{
+    for (size_t i = 0; i < NOOK_COUNT(techniques); i++) {
+        if (strcmp(techniques[i]->name, technique->name) == 0)
+            techniques[i] = technique;
+    }
 }
 
 const nook_param *nook_shared_param(const char *name)

@@ -224,6 +224,14 @@ nook_entity nook_game_world_entity_of_node(const nook_game_world *world, uint32_
     return world->of_node[node];
 }
 
+nook_result nook_game_world_renew(nook_game_world *world)
+{
+    nook_result result = nook_draw_list_renew(world->entities);
+    if (result == NOOK_OK && world->ao)
+        result = nook_occluders_renew(world->entities);
+    return result;
+}
+
 nook_result nook_game_world_update(nook_game_world *world, nook_ao *ao)
 {
     nook_result result = nook_world_run_phase(world->entities, NOOK_PHASE_UPDATE);

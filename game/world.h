@@ -53,6 +53,9 @@ const nook_components *nook_game_world_components(const nook_game_world *world);
 /** The entity of a node, by its place in scene->nodes; {0} for a node without a mesh. */
 nook_entity nook_game_world_entity_of_node(const nook_game_world *world, uint32_t node);
 
+/** Gives the world the systems of this code, which was loaded anew. @return as nook_world_replace_system */
+nook_result nook_game_world_renew(nook_game_world *world);
+
 /** Runs one frame's systems and submits the occluders they collected. @return NOOK_E_MEMORY, NOOK_E_ARG */
 nook_result nook_game_world_update(nook_game_world *world, nook_ao *ao);
 

@@ -46,15 +46,16 @@ nook_result nook_module_host_create(const nook_module_host_desc *desc, nook_modu
     return result;
 }
 
-void nook_module_host_destroy(nook_module_host *host)
+nook_result nook_module_host_destroy(nook_module_host *host)
 {
+    nook_result result = NOOK_OK;
     if (!host)
-        return;
+        return result;
     if (host->state) {
         const nook_module *module = host->slots[0].now.module;
         if (module->suspend)
             module->suspend(host->state);
-        module->destroy(host->state);
+        result = module->destroy(host->state);
         free(host->state);
     }
     free(host->state_before);
@@ -64,6 +65,12 @@ void nook_module_host_destroy(nook_module_host *host)
     }
     nook_interface_free(host->program);
     free(host);
+    return result;
+}
+
+void nook_module_host_stop(nook_module_host *host)
+{
+    host->stop_asked = true;
 }
 
 nook_result nook_module_host_frame(nook_module_host *host, bool *out_running)

@@ -29,7 +29,7 @@ typedef struct nook_module_host_desc {
     nook_module_builtin main;         /**< Outlives the host, as the parts do. */
     const nook_module_builtin *parts; /**< part_count of them. */
     uint32_t part_count;
-    const void *arguments; /**< For the main module, in nook_module_news; outlives the host. */
+    nook_module_arguments arguments; /**< For the main module, in nook_module_news. */
 } nook_module_host_desc;
 
 enum { NOOK_MODULE_PARTS_MAX = 31 };
@@ -38,7 +38,8 @@ typedef struct nook_module_host nook_module_host;
 
 /** @return what the main module's create returned, or NOOK_E_MEMORY; *out_host is NULL then */
 nook_result nook_module_host_create(const nook_module_host_desc *desc, nook_module_host **out_host);
-void nook_module_host_destroy(nook_module_host *host); /**< NULL is allowed. */
+/** NULL is allowed. @return what the main module's destroy returned */
+nook_result nook_module_host_destroy(nook_module_host *host);
 
 /**
  * Looks for new code, then makes one frame.
@@ -46,6 +47,7 @@ void nook_module_host_destroy(nook_module_host *host); /**< NULL is allowed. */
  *         could be put back; destroy the host then
  */
 nook_result nook_module_host_frame(nook_module_host *host, bool *out_running);
+void nook_module_host_stop(nook_module_host *host); /**< Asks the main module to make the next frame the last. */
 
 /** For the screen and for tests. */
 typedef struct nook_module_host_view {

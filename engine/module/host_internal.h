@@ -25,7 +25,8 @@ typedef enum nook_module_fate { NOOK_STATE_KEPT, NOOK_STATE_MIGRATED, NOOK_STATE
 
 struct nook_module_host {
     nook_module_builtin main;
-    const void *arguments;
+    nook_module_arguments arguments;
+    bool stop_asked;
     nook_live_folder folder;                           /* path "": none */
     nook_interface *program;                           /* of the executable; read when the first library comes */
     nook_module_slot slots[1 + NOOK_MODULE_PARTS_MAX]; /* the main module first */

@@ -33,13 +33,22 @@ typedef struct nook_module_part {
     bool other_layout; /**< In resume: a type of its state is laid out otherwise than in the code before. Else false. */
 } nook_module_part;
 
+/** What the program was called with. */
+typedef struct nook_module_arguments {
+    const char *root; /**< The folder that holds shaders/. */
+    int argc;
+    char **argv; /**< argv[0] is the command's name. */
+    void *user;  /**< For tests. */
+} nook_module_arguments;
+
 /** What the host tells the main module. Valid during the call. */
 typedef struct nook_module_news {
-    const void *arguments;         /**< Of nook_module_host_desc. */
+    const nook_module_arguments *arguments;
     const nook_module_part *parts; /**< part_count of them, in the order of nook_module_host_desc. */
     uint32_t part_count;
     const char *message; /**< For the screen: what is wrong with the code that was to be loaded; "": nothing. */
     uint32_t swaps;      /**< Of code, so far. */
+    bool stop_asked;     /**< By nook_module_host_stop: this frame is to be the last. */
 } nook_module_news;
 
 /** Functions of a part may all be NULL; of a main module those that may are marked. */
@@ -55,7 +64,8 @@ struct nook_module {
 
     /** On failure nothing is left to destroy. */
     nook_result (*create)(void *state, const nook_module_news *news);
-    void (*destroy)(void *state);
+    /** @return what it could not write; destroyed it is in any case */
+    nook_result (*destroy)(void *state);
     /** One frame. A failure ends the program, but in the first frame of new code: then the old one comes back. */
     nook_result (*frame)(void *state, const nook_module_news *news, bool *out_running);
     /** Before any code is exchanged: stop threads and call-backs that run code of a module. Twice is allowed. May be NULL. */

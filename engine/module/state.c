@@ -10,11 +10,12 @@ static const nook_module *main_module(const nook_module_host *host)
 
 nook_module_news nook_module_host_news(const nook_module_host *host)
 {
-    return (nook_module_news){ .arguments = host->arguments,
+    return (nook_module_news){ .arguments = &host->arguments,
                                .parts = host->parts,
                                .part_count = host->slot_count - 1,
                                .message = host->message,
-                               .swaps = host->swaps };
+                               .swaps = host->swaps,
+                               .stop_asked = host->stop_asked };
 }
 
 /* ---- calls that may crash or fail ---- */
@@ -75,8 +76,7 @@ static nook_result call_create(guarded *call)
 
 static nook_result call_destroy(guarded *call)
 {
-    main_module(call->host)->destroy(call->host->state);
-    return NOOK_OK;
+    return main_module(call->host)->destroy(call->host->state);
 }
 
 static nook_result call_suspend(guarded *call)
@@ -175,7 +175,8 @@ bool nook_module_host_take_state_over(nook_module_host *host, nook_module_reason
     if (migrate(host))
         return true;
     host->fate = NOOK_STATE_MADE;
-    old->destroy(host->state);
+    if (old->destroy(host->state) != NOOK_OK)
+        nook_log_warning("%s: not all of its old state was written; the lines before say why", old->name);
     free(host->state);
     host->state = NULL;
     return nook_module_host_create_state(host, out_reason);

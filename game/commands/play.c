@@ -1,91 +1,7 @@
 #include "game/play/play.h"
-#include "engine/core/log.h"
 #include "game/commands/commands.h"
-#include "game/interrupt.h"
-#include "game/option_rows.h"
-#include "game/play/play_window.h"
-
-static bool read_seed(void *target, const char *text)
-{
-    double number;
-    nook_play_desc *desc = target;
-    if (!nook_text_to_number(text, &number) || number < 0.0 || number > UINT32_MAX ||
-        number != (double)(uint32_t)number)
-        return false;
-    desc->seed = (uint32_t)number;
-    desc->seed_given = true;
-    return true;
-}
-
-static nook_option make_path(const char *name, const char **target, const char *help)
-{
-    return (
-        nook_option){ .name = name, .kind = NOOK_OPTION_TEXT, .target = target, .placeholder = "FILE", .help = help };
-}
-
-static const char details[] =
-    "LEVEL is a .level file or any glTF file, whose nodes become bodies; default: the engine house.\n"
-    "Without a window the last line says how it ended: won, lost, ended (nothing to win) or undecided, after how many\n"
-    "ticks of 1/60 s, and the hash of the state. It plays to the end of the replay or the pilot, or 2 s beyond the "
-    "end.\n"
-    "Levels: docs/playing.md. Pilots: game/play/pilot.h.\n";
-
-/* The command line. */
-typedef struct play_request {
-    nook_play_desc desc;
-    bool headless;
-    const char *settings, *cache, *pictures;
-    nook_option_size size;
-    nook_backend backend;
-    char default_cache[NOOK_OPTION_PATH_MAX];
-} play_request;
-
-static bool read_request(const nook_app *app, int argc, char **argv, play_request *out, int *out_exit_code)
-{
-    *out = (play_request){
-        .desc = { .root = app->root }, .size = { 1280, 720 }, .backend = NOOK_BACKEND_AUTO, .pictures = "out"
-    };
-    out->cache = nook_option_default_cache(app, out->default_cache);
-    const nook_option options[] = {
-        { .name = "headless",
-          .kind = NOOK_OPTION_FLAG,
-          .target = &out->headless,
-          .help = "without a window, as fast as it goes" },
-        { .name = "seed",
-          .kind = NOOK_OPTION_CUSTOM,
-          .target = &out->desc,
-          .placeholder = "N",
-          .read = read_seed,
-          .expects = "a whole number below 2^32",
-          .help = "of the physics; default: the replay's, else 1" },
-        make_path("record", &out->desc.record, "write what is pressed, tick by tick"),
-        make_path("replay", &out->desc.replay, "play what was recorded; then the player goes on"),
-        make_path("pilot", &out->desc.pilot, "play by a script of steps"),
-        nook_option_row_settings(&out->settings,
-                                 "technique and parameters, as ./nook tune writes them; default: the level's"),
-        nook_option_row_size(&out->size, "of the window in pixels; default 1280x720"),
-        { .name = "out",
-          .kind = NOOK_OPTION_TEXT,
-          .target = &out->pictures,
-          .placeholder = "DIR",
-          .help = "where the pictures go that F12 takes; default out" },
-        nook_option_row_backend(&out->backend),
-        nook_option_row_cache(&out->cache, "baked volumes and the player's preferences; default: cache/ of Nook"),
-    };
-    const nook_usage usage = { .command = "play",
-                               .summary = "Plays a level: first person, rigid bodies, weight and shadow.",
-                               .positionals = "[LEVEL]",
-                               .positional_max = 1,
-                               .options = options,
-                               .option_count = NOOK_COUNT(options),
-                               .details = details };
-    nook_arguments arguments;
-    if (!nook_arguments_read(&usage, argc, argv, &arguments, out_exit_code))
-        return false;
-    out->desc.level = arguments.positionals[0];
-    out->desc.skip_images = out->headless;
-    return true;
-}
+#include "game/play/play_host.h"
+#include "game/play/play_request.h"
 
 static int play_headless(const nook_play_desc *desc)
 {
@@ -100,36 +16,13 @@ static int play_headless(const nook_play_desc *desc)
     return result == NOOK_OK && closed == NOOK_OK && orderly ? NOOK_EXIT_OK : NOOK_EXIT_FAILED;
 }
 
-static int play_in_window(const nook_app *app, const play_request *request)
-{
-    const nook_play_window_desc desc = { .play = request->desc,
-                                         .backend = request->backend,
-                                         .width = (uint32_t)request->size.width,
-                                         .height = (uint32_t)request->size.height,
-                                         .settings = request->settings,
-                                         .cache = request->cache,
-                                         .pictures = request->pictures };
-    nook_play_window window;
-    bool goes_on = true;
-    nook_result result = nook_play_window_open(app->root, &desc, &window);
-    if (result != NOOK_OK)
-        return NOOK_EXIT_FAILED;
-    nook_interrupt_hold();
-    while (result == NOOK_OK && goes_on && !nook_interrupt_asked())
-        result = nook_play_window_frame(&window, &goes_on);
-    if (nook_interrupt_asked())
-        nook_interrupt_answer(); /* as if the window had been closed */
-    nook_play_print_end(&window.play);
-    nook_result closed = nook_play_window_close(&window);
-    nook_interrupt_release();
-    return result == NOOK_OK && closed == NOOK_OK ? NOOK_EXIT_OK : NOOK_EXIT_FAILED;
-}
-
 int nook_command_play(const nook_app *app, int argc, char **argv)
 {
-    play_request request;
+    nook_play_request request;
     int exit_code;
-    if (!read_request(app, argc, argv, &request, &exit_code))
+    if (!nook_play_request_read(app->root, argc, argv, &request, &exit_code))
         return exit_code;
-    return request.headless ? play_headless(&request.desc) : play_in_window(app, &request);
+    if (request.headless)
+        return play_headless(&request.desc);
+    return nook_play_host_run(app->root, argc, argv) == NOOK_OK ? NOOK_EXIT_OK : NOOK_EXIT_FAILED;
 }

@@ -123,6 +123,12 @@ nook_result nook_play_window_open(const char *root, const nook_play_window_desc 
     return result;
 }
 
+nook_result nook_play_window_renew(nook_play_window *w)
+{
+    nook_setting_renew(&w->settings.setting);
+    return nook_stage_renew(&w->stage);
+}
+
 nook_result nook_play_window_close(nook_play_window *w)
 {
     nook_result result = nook_play_close(&w->play); /* before the world that it stands in */
@@ -244,11 +250,11 @@ static void use_input(nook_play_window *w, const nook_input *input, double secon
 /* What is wrong with shaders and code that were saved: what runs is what was good last. */
 static void show_troubles(nook_play_window *w)
 {
+    nook_live_message(w->live, "code", w->trouble);
     if (!w->shaders)
         return;
     nook_shader_reload_poll(w->shaders);
     nook_live_message(w->live, "shaders", nook_shader_reload_status(w->shaders)->error);
-    nook_live_message(w->live, "code", w->trouble);
 }
 
 static nook_result draw(nook_play_window *w)

@@ -70,6 +70,8 @@ typedef struct nook_play_window {
 nook_result nook_play_window_open(const char *root, const nook_play_window_desc *desc, nook_play_window *out_window);
 /** One picture. @param out_goes_on false: the player wants out, or nothing drives a game without a window any more */
 nook_result nook_play_window_frame(nook_play_window *window, bool *out_goes_on);
+/** After code was loaded anew, while the old one is still there: points to the new. @return as nook_stage_renew */
+nook_result nook_play_window_renew(nook_play_window *window);
 /** Writes recording and preferences, frees everything. @return NOOK_E_IO, NOOK_E_MEMORY: not written; closed it is */
 nook_result nook_play_window_close(nook_play_window *window);
 

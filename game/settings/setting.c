@@ -4,6 +4,7 @@
 #include "game/techniques.h"
 #include "modules/bake/voxelize.h"
 #include <assert.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -312,4 +313,26 @@ nook_result nook_setting_apply(nook_ao *ao, const nook_setting *setting)
         result = nook_ao_set_param(ao, name, nook_setting_get(setting, param));
     }
     return result;
+}
+
+void nook_setting_renew(nook_setting *setting)
+{
+    const nook_ao_technique *technique = nook_technique_find(setting->technique->name);
+    uint32_t kept = 0;
+    size_t shared_count;
+    const nook_param *shared = nook_ao_shared_params(&shared_count);
+    assert(technique); /* techniques are replaced, never taken away */
+    for (uint32_t i = 0; i < setting->param_count; i++) {
+        nook_setting_param entry = setting->params[i];
+        const nook_param *param = entry.shared
+                                      ? nook_param_find(shared, shared_count, entry.param->name)
+                                      : nook_param_find(technique->params, technique->param_count, entry.param->name);
+        if (!param || param->type != entry.param->type)
+            continue;
+        entry.value = fmin(fmax(entry.value, param->lowest), param->highest);
+        entry.param = param;
+        setting->params[kept++] = entry;
+    }
+    setting->param_count = kept;
+    setting->technique = technique;
 }

@@ -59,6 +59,12 @@ const nook_param *nook_setting_param_at(const struct nook_ao_technique *techniqu
 double nook_setting_get(const nook_setting *setting, const nook_param *param);
 
 /**
+ * After code was loaded anew, while the old one is still there: points to the technique and the parameters that have the
+ * same names now; those that are gone are left out, and values are brought into their range.
+ */
+void nook_setting_renew(nook_setting *setting);
+
+/**
  * Chooses the technique and puts every parameter of it and every shared one, but r_max and falloff, to what the setting says.
  * The resolution is not applied: that is nook_stage_fill's.
  */

@@ -78,6 +78,9 @@ typedef struct nook_ao_pass {
 
 enum { NOOK_AO_IN_VOLUMES = 1, NOOK_AO_IN_MESHES = 2 };
 
+/** What a shared library of a technique lends (engine/module/module.h): its interface is a nook_ao_technique. */
+#define NOOK_AO_TECHNIQUE_KIND "ao.technique"
+
 /** The one thing a technique module exports. */
 typedef struct nook_ao_technique {
     uint32_t version;    /**< NOOK_AO_TECHNIQUE_VERSION, else the module is refused with NOOK_E_VERSION. */

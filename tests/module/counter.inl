@@ -33,7 +33,7 @@
 static nook_result counter_create(void *state, const nook_module_news *news)
 {
     counter_state *s = state;
-    const counter_arguments *arguments = news->arguments;
+    const counter_arguments *arguments = news->arguments->user;
     COUNTER_IN_CREATE;
     s->heap = calloc(1, sizeof *s->heap);
     if (!s->heap)
@@ -43,11 +43,12 @@ static nook_result counter_create(void *state, const nook_module_news *news)
     return NOOK_OK;
 }
 
-static void counter_destroy(void *state)
+static nook_result counter_destroy(void *state)
 {
     counter_state *s = state;
     free(s->heap);
     s->heap = NULL;
+    return NOOK_OK;
 }
 
 static int32_t add_parts(const nook_module_news *news, int32_t value)
@@ -71,7 +72,7 @@ static nook_result counter_frame(void *state, const nook_module_news *news, bool
 #ifdef NOOK_SHARED_NOTE
     s->value += (int32_t)counter_note.note - 1;
 #endif
-    *out_running = s->value < 1000000;
+    *out_running = s->value < 1000000 && !news->stop_asked;
     return NOOK_OK;
 }
 

@@ -36,7 +36,7 @@ static int setup(void **state)
     f->arguments = (counter_arguments){ .start = 100, .alive = &f->alive };
     const nook_module_host_desc desc = { .folder = f->folder,
                                          .main = { &counter_module, folders, NULL },
-                                         .arguments = &f->arguments };
+                                         .arguments = { .user = &f->arguments } };
     assert_int_equal(nook_module_host_create(&desc, &f->host), NOOK_OK);
     nook_log_capture_begin(&f->log);
     *state = f;
@@ -143,7 +143,7 @@ static void test_copies_of_programs_that_run_no_more_are_removed(void **state)
     assert_int_equal(nook_file_write(path, "", 0), NOOK_OK);
     const nook_module_host_desc desc = { .folder = f->folder,
                                          .main = { &counter_module, folders, NULL },
-                                         .arguments = &f->arguments };
+                                         .arguments = { .user = &f->arguments } };
     nook_module_host *other;
     assert_int_equal(nook_module_host_create(&desc, &other), NOOK_OK);
     assert_false(nook_file_exists(path));
@@ -156,7 +156,7 @@ static void test_a_library_that_was_there_before_the_program_is_not_loaded(void 
     module_build(f->folder, "counter", source, "-DCOUNTER_STEP=10");
     const nook_module_host_desc desc = { .folder = f->folder,
                                          .main = { &counter_module, folders, NULL },
-                                         .arguments = &f->arguments };
+                                         .arguments = { .user = &f->arguments } };
     nook_module_host *other;
     bool running;
     assert_int_equal(nook_module_host_create(&desc, &other), NOOK_OK);

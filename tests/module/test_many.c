@@ -100,7 +100,7 @@ static void test_a_thousand_exchanges_leave_no_memory_mapping_descriptor_or_file
     (void)state;
     char folder[4096], paths[4][4200], remove[8192];
     int32_t alive = 0;
-    const counter_arguments arguments = { 0, &alive };
+    counter_arguments arguments = { 0, &alive };
     nook_module_host *host;
     nook_scratch_path(folder, sizeof folder, "live");
     snprintf(remove, sizeof remove, "rm -rf '%s'", folder);
@@ -110,7 +110,7 @@ static void test_a_thousand_exchanges_leave_no_memory_mapping_descriptor_or_file
                                          .main = { &counter_module, folders, NULL },
                                          .parts = parts,
                                          .part_count = NOOK_COUNT(parts),
-                                         .arguments = &arguments };
+                                         .arguments = { .user = &arguments } };
     assert_int_equal(nook_module_host_create(&desc, &host), NOOK_OK);
     build_variants(folder, paths);
     nook_log_set_sink(say_nothing, NULL);

@@ -49,7 +49,7 @@ static int setup(void **state)
                                          .main = { &counter_module, folders, NULL },
                                          .parts = parts,
                                          .part_count = NOOK_COUNT(parts),
-                                         .arguments = &f->arguments };
+                                         .arguments = { .user = &f->arguments } };
     assert_int_equal(nook_module_host_create(&desc, &f->host), NOOK_OK);
     nook_log_capture_begin(&f->log);
     *state = f;

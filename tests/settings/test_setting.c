@@ -218,6 +218,55 @@ static void test_text_longer_than_a_setting_is_refused(void **state)
     must_refuse(text, NOOK_E_NOT_FOUND, "technique");
 }
 
+/** A setting of code that is being exchanged, whose ssao had other rows. */
+static nook_setting of_other_code(void)
+{
+    static const nook_param rows[] = {
+        { "gone", NOOK_PARAM_INT, NOOK_UNIT_COUNT, 0, 1, 1, 9, NULL, "" },
+        { "samples", NOOK_PARAM_INT, NOOK_UNIT_COUNT, 4, 16, 1, 4096, NULL, "" },
+        { "bias", NOOK_PARAM_FLOAT, NOOK_UNIT_NONE, 8, 0.01, 0.0, 0.5, NULL, "" },
+    };
+    static const nook_ao_technique technique = {
+        .version = NOOK_AO_TECHNIQUE_VERSION, .name = "ssao", .params = rows, .param_count = NOOK_COUNT(rows)
+    };
+    nook_setting setting = { .technique = &technique, .param_count = 4 };
+    setting.params[0] = (nook_setting_param){ &rows[0], false, 5.0 };
+    setting.params[1] = (nook_setting_param){ &rows[1], false, 4000.0 };
+    setting.params[2] = (nook_setting_param){ &rows[2], false, 0.25 };
+    setting.params[3] = (nook_setting_param){ nook_shared_param("scale"), true, 1.0 };
+    return setting;
+}
+
+static void test_a_setting_of_exchanged_code_points_to_what_has_its_names_now(void **state)
+{
+    (void)state;
+    nook_setting setting = of_other_code();
+    nook_setting_renew(&setting);
+    assert_ptr_equal(setting.technique, nook_technique_find("ssao"));
+    must_print(&setting, "ssao samples=1024 bias=0.25 ao.scale=half");
+    nook_setting again = setting;
+    nook_setting_renew(&again);
+    must_print(&again, "ssao samples=1024 bias=0.25 ao.scale=half");
+}
+
+static void test_a_technique_of_exchanged_code_is_listed_in_the_place_of_its_name(void **state)
+{
+    (void)state;
+    const nook_ao_technique *linked = nook_technique_find("gtao");
+    nook_ao_technique other = *linked, stranger = *linked;
+    size_t count, after;
+    nook_techniques(&count);
+    stranger.name = "alchemy";
+    nook_techniques_replace(&stranger);
+    assert_null(nook_technique_find("alchemy"));
+    nook_techniques_replace(&other);
+    assert_ptr_equal(nook_technique_find("gtao"), &other);
+    nook_techniques(&after);
+    assert_int_equal(count, after);
+    nook_techniques_replace(linked);
+    assert_ptr_equal(nook_technique_find("gtao"), linked);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -231,6 +280,8 @@ int main(void)
         cmocka_unit_test(test_wrong_values_are_refused),
         cmocka_unit_test(test_what_is_computed_is_no_part_of_a_setting),
         cmocka_unit_test(test_text_longer_than_a_setting_is_refused),
+        cmocka_unit_test(test_a_setting_of_exchanged_code_points_to_what_has_its_names_now),
+        cmocka_unit_test(test_a_technique_of_exchanged_code_is_listed_in_the_place_of_its_name),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

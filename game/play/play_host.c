@@ -1,0 +1,95 @@
+#include "game/play/play_host.h"
+#include "engine/core/file.h"
+#include "engine/module/host.h"
+#include "game/interrupt.h"
+#include "game/play/play_module.h"
+#include "game/techniques.h"
+#include <assert.h>
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { NAME_MAX_SIZE = 64 };
+
+/* A technique that is linked in, as the part of its name. */
+typedef struct linked_part {
+    char name[NAME_MAX_SIZE], folder[NAME_MAX_SIZE];
+    const char *folders[2];
+    nook_module module;
+} linked_part;
+
+static const char *const game_folders[] = { "game/", "modules/", NULL };
+static const char *const technique_folders[] = { "modules/ao_", NULL };
+
+/* It must stay where it is. */
+static nook_module_builtin describe_technique(const nook_ao_technique *technique, linked_part *part)
+{
+    snprintf(part->name, sizeof part->name, "ao_%s", technique->name);
+    snprintf(part->folder, sizeof part->folder, "modules/ao_%s/", technique->name);
+    part->folders[0] = part->folder;
+    part->module = (nook_module){
+        .version = NOOK_MODULE_VERSION, .name = part->name, .kind = NOOK_AO_TECHNIQUE_KIND, .interface = technique
+    };
+    return (nook_module_builtin){ &part->module, part->folders, NULL };
+}
+
+/* NOOK_LIVE, else build/<kind>/live beside the bin/ that the program is in; "" when it is not where ./nook builds it. */
+static void find_live_folder(char *out, size_t capacity)
+{
+    char program[PATH_MAX];
+    const char *given = getenv("NOOK_LIVE");
+    if (given && *given) {
+        snprintf(out, capacity, "%s", given);
+        return;
+    }
+    ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
+    program[length > 0 ? length : 0] = '\0';
+    char *name = strstr(program, "/bin/nook");
+    out[0] = '\0';
+    if (!name || strcmp(name, "/bin/nook") != 0)
+        return;
+    *name = '\0';
+    nook_path_join(out, capacity, program, "live");
+    if (!nook_directory_exists(out))
+        out[0] = '\0';
+}
+
+static nook_result run(nook_module_host *host)
+{
+    nook_result result = NOOK_OK;
+    bool running = true;
+    nook_interrupt_hold();
+    while (result == NOOK_OK && running) {
+        if (nook_interrupt_asked())
+            nook_module_host_stop(host);
+        result = nook_module_host_frame(host, &running);
+    }
+    if (nook_interrupt_asked())
+        nook_interrupt_answer(); /* as if the window had been closed */
+    nook_result closed = nook_module_host_destroy(host);
+    nook_interrupt_release();
+    return result == NOOK_OK ? closed : result;
+}
+
+nook_result nook_play_host_run(const char *root, int argc, char **argv)
+{
+    size_t count;
+    const nook_ao_technique *const *techniques = nook_techniques(&count);
+    linked_part linked[NOOK_MODULE_PARTS_MAX] = { { .folders = { NULL, NULL } } };
+    nook_module_builtin parts[NOOK_MODULE_PARTS_MAX];
+    char folder[PATH_MAX];
+    nook_module_host *host;
+    assert(count <= NOOK_MODULE_PARTS_MAX);
+    for (size_t i = 0; i < count; i++)
+        parts[i] = describe_technique(techniques[i], &linked[i]);
+    find_live_folder(folder, sizeof folder);
+    const nook_module_host_desc desc = { .folder = folder[0] ? folder : NULL,
+                                         .main = { &nook_play_module, game_folders, technique_folders },
+                                         .parts = parts,
+                                         .part_count = (uint32_t)count,
+                                         .arguments = { .root = root, .argc = argc, .argv = argv } };
+    nook_result result = nook_module_host_create(&desc, &host);
+    return result == NOOK_OK ? run(host) : result;
+}

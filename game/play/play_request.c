@@ -1,0 +1,75 @@
+#include "game/play/play_request.h"
+#include "game/command.h"
+
+static bool read_seed(void *target, const char *text)
+{
+    double number;
+    nook_play_desc *desc = target;
+    if (!nook_text_to_number(text, &number) || number < 0.0 || number > UINT32_MAX ||
+        number != (double)(uint32_t)number)
+        return false;
+    desc->seed = (uint32_t)number;
+    desc->seed_given = true;
+    return true;
+}
+
+static nook_option make_path(const char *name, const char **target, const char *help)
+{
+    return (
+        nook_option){ .name = name, .kind = NOOK_OPTION_TEXT, .target = target, .placeholder = "FILE", .help = help };
+}
+
+static const char details[] =
+    "LEVEL is a .level file or any glTF file, whose nodes become bodies; default: the engine house.\n"
+    "Without a window the last line says how it ended: won, lost, ended (nothing to win) or undecided, after how many\n"
+    "ticks of 1/60 s, and the hash of the state. It plays to the end of the replay or the pilot, or 2 s beyond the "
+    "end.\n"
+    "Levels: docs/playing.md. Pilots: game/play/pilot.h.\n";
+
+bool nook_play_request_read(const char *root, int argc, char **argv, nook_play_request *out, int *out_exit_code)
+{
+    const nook_app app = { .root = root };
+    *out = (nook_play_request){
+        .desc = { .root = root }, .size = { 1280, 720 }, .backend = NOOK_BACKEND_AUTO, .pictures = "out"
+    };
+    out->cache = nook_option_default_cache(&app, out->default_cache);
+    const nook_option options[] = {
+        { .name = "headless",
+          .kind = NOOK_OPTION_FLAG,
+          .target = &out->headless,
+          .help = "without a window, as fast as it goes" },
+        { .name = "seed",
+          .kind = NOOK_OPTION_CUSTOM,
+          .target = &out->desc,
+          .placeholder = "N",
+          .read = read_seed,
+          .expects = "a whole number below 2^32",
+          .help = "of the physics; default: the replay's, else 1" },
+        make_path("record", &out->desc.record, "write what is pressed, tick by tick"),
+        make_path("replay", &out->desc.replay, "play what was recorded; then the player goes on"),
+        make_path("pilot", &out->desc.pilot, "play by a script of steps"),
+        nook_option_row_settings(&out->settings,
+                                 "technique and parameters, as ./nook tune writes them; default: the level's"),
+        nook_option_row_size(&out->size, "of the window in pixels; default 1280x720"),
+        { .name = "out",
+          .kind = NOOK_OPTION_TEXT,
+          .target = &out->pictures,
+          .placeholder = "DIR",
+          .help = "where the pictures go that F12 takes; default out" },
+        nook_option_row_backend(&out->backend),
+        nook_option_row_cache(&out->cache, "baked volumes and the player's preferences; default: cache/ of Nook"),
+    };
+    const nook_usage usage = { .command = "play",
+                               .summary = "Plays a level: first person, rigid bodies, weight and shadow.",
+                               .positionals = "[LEVEL]",
+                               .positional_max = 1,
+                               .options = options,
+                               .option_count = NOOK_COUNT(options),
+                               .details = details };
+    nook_arguments arguments;
+    if (!nook_arguments_read(&usage, argc, argv, &arguments, out_exit_code))
+        return false;
+    out->desc.level = arguments.positionals[0];
+    out->desc.skip_images = out->headless;
+    return true;
+}
