@@ -14,27 +14,27 @@ enum { WORDS_MAX = 5 };
 /* What a step is made of: numbers, or a name and numbers behind it. */
 static const struct {
     const char *verb;
-    pilot_verb id;
-    bool name;            /* a name comes first */
-    uint32_t least, most; /* numbers behind it */
-    bool place_instead;   /* three numbers do instead of the name */
     const char *usage;
+    pilot_verb id;
+    uint32_t least, most; /* numbers behind it */
+    bool name;            /* a name comes first */
+    bool place_instead;   /* three numbers do instead of the name */
 } verbs[] = {
-    { "walk_to", PILOT_WALK_TO, false, 2, 2, false, "walk_to X Z" },
-    { "run_to", PILOT_RUN_TO, false, 2, 2, false, "run_to X Z" },
-    { "look_at", PILOT_LOOK_AT, true, 0, 0, true, "look_at NAME, or look_at X Y Z" },
-    { "turn_to", PILOT_TURN_TO, false, 2, 2, false, "turn_to YAW PITCH" },
-    { "take", PILOT_TAKE, true, 0, 0, false, "take NAME" },
-    { "place_at", PILOT_PLACE_AT, false, 3, 3, false, "place_at X Y Z" },
-    { "spin", PILOT_SPIN, false, 1, 1, false, "spin DEGREES" },
-    { "drop", PILOT_DROP, false, 0, 0, false, "drop" },
-    { "throw", PILOT_THROW, false, 0, 0, false, "throw" },
-    { "jump", PILOT_JUMP, false, 0, 0, false, "jump" },
-    { "restart", PILOT_RESTART, false, 0, 0, false, "restart" },
-    { "crouch", PILOT_CROUCH, false, 0, 0, false, "crouch" },
-    { "stand", PILOT_STAND, false, 0, 0, false, "stand" },
-    { "wait", PILOT_WAIT, false, 1, 1, false, "wait SECONDS" },
-    { "wait_for", PILOT_WAIT_FOR, true, 0, 1, false, "wait_for NAME [STATE]" },
+    { "walk_to", "walk_to X Z", PILOT_WALK_TO, 2, 2, false, false },
+    { "run_to", "run_to X Z", PILOT_RUN_TO, 2, 2, false, false },
+    { "look_at", "look_at NAME, or look_at X Y Z", PILOT_LOOK_AT, 0, 0, true, true },
+    { "turn_to", "turn_to YAW PITCH", PILOT_TURN_TO, 2, 2, false, false },
+    { "take", "take NAME", PILOT_TAKE, 0, 0, true, false },
+    { "place_at", "place_at X Y Z", PILOT_PLACE_AT, 3, 3, false, false },
+    { "spin", "spin DEGREES", PILOT_SPIN, 1, 1, false, false },
+    { "drop", "drop", PILOT_DROP, 0, 0, false, false },
+    { "throw", "throw", PILOT_THROW, 0, 0, false, false },
+    { "jump", "jump", PILOT_JUMP, 0, 0, false, false },
+    { "restart", "restart", PILOT_RESTART, 0, 0, false, false },
+    { "crouch", "crouch", PILOT_CROUCH, 0, 0, false, false },
+    { "stand", "stand", PILOT_STAND, 0, 0, false, false },
+    { "wait", "wait SECONDS", PILOT_WAIT, 1, 1, false, false },
+    { "wait_for", "wait_for NAME [STATE]", PILOT_WAIT_FOR, 0, 1, true, false },
 };
 
 typedef struct script {

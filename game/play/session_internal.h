@@ -78,8 +78,6 @@ static const double session_gravity = 9.81; /**< Metres per second squared. */
 
 /** Finds out what has a body. Once in a session's life. @return NOOK_E_NOT_FOUND, NOOK_E_MEMORY */
 nook_result session_make_things(nook_session *s);
-/** Gives them their bodies in a new physics, and the world's entities their component. @return NOOK_E_ARG, NOOK_E_MEMORY */
-nook_result session_make_bodies(nook_session *s);
 /** Brings back what left the world. */
 void session_return_bodies(nook_session *s);
 const nook_level_entity *session_entity_of(const nook_session *s, const session_thing *thing); /**< Or NULL. */
@@ -87,6 +85,11 @@ uint32_t session_thing_of_body(const nook_session *s, nook_body body);          
 const char *session_thing_name(const nook_session *s, uint32_t thing); /**< Of its node; "" for NOOK_NONE. */
 /** Where the middle of its box is now. */
 void session_thing_middle(const nook_session *s, const session_thing *thing, double out[3]);
+
+/* ---- session_bodies.c ---- */
+
+/** Gives things their bodies in a new physics, and the world's entities their component. @return NOOK_E_ARG, NOOK_E_MEMORY */
+nook_result session_make_bodies(nook_session *s);
 
 /* ---- player.c ---- */
 
