@@ -9,8 +9,8 @@
  * Restart   (input, or nook_session_restart) throws the physics away and makes all of it anew from level and scene: from any
  *           state it gives that of a fresh session. What nook_session_physics gave before is gone then.
  * Reload    of the game's code: a session is numbers, handles and pointers to what level, scene, world and physics own; it
- *           has no pointer to a function or a literal, and no ECS system. It goes on as long as NOOK_SESSION_VERSION is the
- *           same; else make a new one of the same desc.
+ *           has no pointer to a function or a literal, and no ECS system. It goes on as long as its types are the same, which
+ *           engine/module compares; else make a new one of the same desc.
  */
 #pragma once
 #include "engine/physics/physics.h"
@@ -18,9 +18,6 @@
 #include "game/level/level.h"
 #include "game/play/play_input.h"
 #include "game/world.h"
-
-/** Rises with the layout of a session: a reloaded game must not go on with one of another version. */
-#define NOOK_SESSION_VERSION 1u
 
 typedef struct nook_session nook_session;
 
