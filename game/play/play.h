@@ -29,6 +29,7 @@ typedef struct nook_play {
     nook_game_world *own_world; /**< Of a game that nobody draws; else NULL. */
     nook_session *session;      /**< NULL until it begins. */
     nook_recording recording;   /**< Of what was played so far. */
+    bool recording_ended;       /**< The level has changed since. */
     char record_path[1024];     /**< "": nowhere. */
     nook_recording replay;
     size_t replayed; /**< Ticks of it that were taken. */
@@ -52,6 +53,18 @@ nook_scene *nook_play_take_scene(nook_play *play);
 nook_result nook_play_begin(nook_play *play, const nook_scene *scene, nook_game_world *world);
 /** One step. @param from_player taken when neither replay nor pilot gives one. @return as nook_session_tick; NOOK_E_MEMORY */
 nook_result nook_play_tick(nook_play *play, const nook_play_input *from_player);
+/**
+ * The level's files as they are now, aside: for one that was changed while it is played. @return as nook_play_open; the outputs are
+ * NULL then and the game goes on as it was
+ */
+nook_result nook_play_read_again(const nook_play *play, bool skip_images, nook_level **out_level,
+                                 nook_scene **out_scene);
+/**
+ * Goes on in what nook_play_read_again gave: see nook_session_carry_over. The recording ends: what follows would not play back.
+ * @param level         taken over, also on failure
+ * @param scene, world  that scene and a world of it, which outlive the play @return as nook_session_create; it goes on as it was then
+ */
+nook_result nook_play_go_on(nook_play *play, nook_level *level, const nook_scene *scene, nook_game_world *world);
 /** Whether nothing but the player would give the next input. */
 bool nook_play_is_free(const nook_play *play);
 /** One line on standard output: won, lost, ended (where nothing can be won) or undecided, after how many ticks, and the hash of the state. */

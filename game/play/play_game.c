@@ -112,6 +112,43 @@ nook_result nook_play_begin(nook_play *play, const nook_scene *scene, nook_game_
     return result == NOOK_OK ? nook_session_create(&desc, &play->session) : result;
 }
 
+nook_result nook_play_read_again(const nook_play *play, bool skip_images, nook_level **out_level,
+                                 nook_scene **out_scene)
+{
+    const nook_scene_options options = { .skip_images = skip_images };
+    *out_scene = NULL;
+    nook_result result = nook_level_read(play->level->path, out_level);
+    if (result == NOOK_OK)
+        result = nook_level_scene_load(*out_level, &options, out_scene);
+    if (result != NOOK_OK) {
+        nook_level_free(*out_level);
+        *out_level = NULL;
+    }
+    return result;
+}
+
+nook_result nook_play_go_on(nook_play *play, nook_level *level, const nook_scene *scene, nook_game_world *world)
+{
+    const nook_session_desc desc = { .level = level, .scene = scene, .world = world, .seed = play->seed };
+    nook_session *session;
+    nook_result result = nook_session_create(&desc, &session);
+    if (result == NOOK_OK)
+        result = nook_session_carry_over(session, play->session);
+    if (result != NOOK_OK) {
+        nook_session_destroy(session);
+        nook_level_free(level);
+        return result;
+    }
+    nook_session_destroy(play->session);
+    nook_level_free(play->level);
+    play->session = session;
+    play->level = level;
+    play->recording_ended = true;
+    if (*play->record_path)
+        nook_log_warning("%s: the level has changed; %s ends here", level->path, play->record_path);
+    return NOOK_OK;
+}
+
 /* ---- Playing ----------------------------------------------------------------------------------------------------- */
 
 bool nook_play_is_free(const nook_play *play)
@@ -136,7 +173,8 @@ static nook_play_input choose_input(nook_play *play, const nook_play_input *from
 nook_result nook_play_tick(nook_play *play, const nook_play_input *from_player)
 {
     const nook_play_input input = choose_input(play, from_player);
-    nook_result result = *play->record_path ? nook_recording_append(&play->recording, &input) : NOOK_OK;
+    bool records = *play->record_path && !play->recording_ended;
+    nook_result result = records ? nook_recording_append(&play->recording, &input) : NOOK_OK;
     if (result == NOOK_OK)
         result = nook_session_tick(play->session, &input);
     if (result != NOOK_OK)

@@ -102,8 +102,7 @@ static bool can_stand_up(nook_session *s)
     return !room.taken;
 }
 
-/* Another body takes over, where the old one is and as fast. */
-static nook_result set_crouched(nook_session *s, bool crouched)
+nook_result session_player_set_crouched(nook_session *s, bool crouched)
 {
     session_player *player = &s->player;
     double linear[3], angular[3];
@@ -124,7 +123,7 @@ static nook_result crouch(nook_session *s, bool wanted)
     session_player *player = &s->player;
     if (wanted == player->crouched || (!wanted && !can_stand_up(s)))
         return NOOK_OK;
-    return set_crouched(s, wanted);
+    return session_player_set_crouched(s, wanted);
 }
 
 static void move_eyes(nook_session *s)

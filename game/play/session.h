@@ -43,6 +43,13 @@ void nook_session_destroy(nook_session *session); /**< NULL is allowed. */
 nook_result nook_session_restart(nook_session *session);
 
 /**
+ * Goes on where a session of the same level as it was before left off, by the names of things: where bodies are that the new level
+ * has where the old one had them, the player, time, and how far what opens has opened. What is carried is let go.
+ * @param session  new, no tick done @return NOOK_E_MEMORY
+ */
+nook_result nook_session_carry_over(nook_session *session, const nook_session *from);
+
+/**
  * One step of NOOK_PHYSICS_STEP. After the end the world goes on, the rules do not. One that asks for a restart does only that.
  * @return NOOK_E_RANGE, NOOK_E_MEMORY
  */

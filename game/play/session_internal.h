@@ -96,6 +96,8 @@ nook_result session_make_bodies(nook_session *s);
 nook_result session_player_enter(nook_session *s); /**< At the level's start. @return NOOK_E_ARG, NOOK_E_MEMORY */
 /** Looks, crouches, and pushes the body for the next step. @param pressed buttons that went down. @return NOOK_E_MEMORY */
 nook_result session_player_move(nook_session *s, const nook_play_input *input, uint16_t pressed);
+/** Another body takes over, where the old one is and as fast. @return NOOK_E_MEMORY */
+nook_result session_player_set_crouched(nook_session *s, bool crouched);
 void session_player_read(nook_session *s); /**< Takes over where the step brought it. */
 /** Unit: where the player looks. */
 void session_player_forward(const session_player *player, double out[3]);

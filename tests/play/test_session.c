@@ -78,6 +78,41 @@ static void test_the_same_inputs_end_in_the_same_state_however_often_it_is_drawn
     play_room_close(&again);
 }
 
+static void test_a_changed_level_goes_on_where_the_old_one_was(void **state)
+{
+    (void)state;
+    const nook_play_input creep = { .forward = 40, .buttons = NOOK_PLAY_CROUCH };
+    play_room room = play_room_open(ROOM, entities);
+    play_room_pilot(&room, "take crate_1\nplace_at -1 0.2 1\nwalk_to 0 -2\nwait 1\n");
+    play_room_tick(&room, &creep, 20);
+    assert_true(nook_session_state_of(room.session, "plate") == 1.0);
+    nook_session_view before = play_room_look(&room);
+    double crate[2][3], stays[3];
+    play_room_middle(&room, "crate_1", crate[0]);
+
+    /* Another crate was moved by the author, the wheel turns faster, and the goal lies elsewhere. */
+    char changed[1024];
+    snprintf(changed, sizeof changed, "%s[body crate_0]\nat = 4 0.2 3\n", entities);
+    play_room next = play_room_open(ROOM, changed);
+    assert_int_equal(nook_session_carry_over(next.session, room.session), NOOK_OK);
+    nook_session_view after = play_room_look(&next);
+    assert_true(after.ticks == before.ticks && after.crouched && after.yaw == before.yaw && after.open == before.open);
+    for (int k = 0; k < 3; k++)
+        assert_true(fabs(after.feet[k] - before.feet[k]) < 1e-12);
+    play_room_middle(&next, "crate_1", crate[1]);
+    assert_memory_equal(crate[0], crate[1], sizeof crate[0]);
+    play_room_middle(&next, "crate_0", stays);
+    assert_true(fabs(stays[0] - 4.0) < 0.001 && fabs(stays[2] - 3.0) < 0.001);
+    assert_true(nook_session_state_of(next.session, "plate") == 1.0);
+    assert_true(nook_session_state_of(next.session, "wheel") == nook_session_state_of(room.session, "wheel"));
+    play_room_close(&room); /* nothing of it is needed any more */
+    play_room_tick(&next, &creep, 60);
+    assert_true(nook_session_state_of(next.session, "plate") == 1.0);
+    play_room_middle(&next, "crate_1", stays);
+    assert_true(hypot(stays[0] - crate[1][0], stays[2] - crate[1][2]) < 0.001);
+    play_room_close(&next);
+}
+
 static nook_matrix transform_of(const play_room *room, const char *name)
 {
     nook_matrix out = { { 0 } };
@@ -244,6 +279,7 @@ int main(void)
         cmocka_unit_test(test_a_restart_from_any_state_is_a_fresh_start),
         cmocka_unit_test(test_a_restart_after_the_end_is_a_fresh_start),
         cmocka_unit_test(test_the_same_inputs_end_in_the_same_state_however_often_it_is_drawn),
+        cmocka_unit_test(test_a_changed_level_goes_on_where_the_old_one_was),
         cmocka_unit_test(test_place_puts_entities_between_the_last_two_ticks_with_their_scale),
         cmocka_unit_test(test_the_camera_looks_from_the_eyes_between_the_ticks),
         cmocka_unit_test(test_bodies_of_a_file_lie_still_until_they_are_touched),
