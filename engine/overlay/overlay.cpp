@@ -193,8 +193,9 @@ nook_result nook_overlay_draw(nook_overlay *overlay, nook_framebuffer target)
     const ImDrawData *data = ImGui::GetDrawData();
     if (!data || data->TotalIdxCount == 0)
         return NOOK_OK;
-    nook_result result =
-        overlay_painter_begin(&overlay->painter, target, (uint32_t)data->TotalVtxCount, (uint32_t)data->TotalIdxCount);
+    const float size[2] = { data->DisplaySize.x, data->DisplaySize.y };
+    nook_result result = overlay_painter_begin(&overlay->painter, target, size, (uint32_t)data->TotalVtxCount,
+                                               (uint32_t)data->TotalIdxCount);
     if (result != NOOK_OK)
         return result;
     uint32_t vertex = 0, index = 0;

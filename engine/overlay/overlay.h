@@ -47,8 +47,8 @@ nook_overlay_taken nook_overlay_begin(nook_overlay *overlay, const nook_overlay_
 /** Widgets are complete. */
 void nook_overlay_end(nook_overlay *overlay);
 /**
- * Draws what was ended last over a target of the frame's size; again into another one for a picture of it. Leaves GL's state at its
- * defaults. @return NOOK_E_MEMORY, NOOK_E_NOT_FOUND, NOOK_E_DEVICE
+ * Draws what was ended last over a target, stretched when that is not of the frame's size; again into another one for a picture of
+ * it. Leaves GL's state at its defaults. @return NOOK_E_MEMORY, NOOK_E_NOT_FOUND, NOOK_E_DEVICE
  */
 nook_result nook_overlay_draw(nook_overlay *overlay, nook_framebuffer target);
 

@@ -27,6 +27,7 @@ typedef struct overlay_painter {
     nook_buffer vertices, indices;
     uint32_t vertex_array;
     nook_framebuffer target; /**< Between begin and end. */
+    float size[2];           /**< What commands and vertices count pixels of: stretched over the target. */
 } overlay_painter;
 
 /** @return NOOK_E_NOT_FOUND, NOOK_E_DEVICE: its shaders do not build */
@@ -35,9 +36,13 @@ void overlay_painter_destroy(overlay_painter *painter); /**< Zeroed ones are all
 /** Replaces the font's texture. @return NOOK_E_MEMORY, NOOK_E_RANGE: the old one stays */
 nook_result overlay_painter_set_font(overlay_painter *painter, const void *rgba8, uint32_t width, uint32_t height);
 
-/** Makes room and sets GL's state. @return NOOK_E_MEMORY, NOOK_E_NOT_FOUND, NOOK_E_DEVICE: draw nothing then */
-nook_result overlay_painter_begin(overlay_painter *painter, nook_framebuffer target, uint32_t vertex_count,
-                                  uint32_t index_count);
+/**
+ * Makes room and sets GL's state.
+ * @param size  width and height that positions are given in
+ * @return NOOK_E_MEMORY, NOOK_E_NOT_FOUND, NOOK_E_DEVICE: draw nothing then
+ */
+nook_result overlay_painter_begin(overlay_painter *painter, nook_framebuffer target, const float size[2],
+                                  uint32_t vertex_count, uint32_t index_count);
 /** Uploads a piece of both buffers; must fit in what begin was told. */
 void overlay_painter_upload(overlay_painter *painter, const overlay_vertex *vertices, uint32_t first_vertex,
                             uint32_t vertex_count, const uint16_t *indices, uint32_t first_index, uint32_t index_count);

@@ -77,7 +77,6 @@ static nook_result make_room(nook_gpu *gpu, nook_buffer *buffer, size_t size)
 static void set_state(const overlay_painter *painter, nook_program program)
 {
     const nook_gl *gl = painter->gpu->gl;
-    const float size[2] = { (float)painter->target.width, (float)painter->target.height };
     nook_framebuffer_bind(painter->gpu, painter->target);
     gl->Disable(GL_DEPTH_TEST);
     gl->Disable(GL_CULL_FACE);
@@ -87,14 +86,14 @@ static void set_state(const overlay_painter *painter, nook_program program)
     gl->Enable(GL_BLEND);
     gl->BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     nook_program_use(painter->gpu, program);
-    nook_uniform_float(painter->gpu, LOCATION_SIZE, size, 2);
+    nook_uniform_float(painter->gpu, LOCATION_SIZE, painter->size, 2);
     gl->VertexArrayVertexBuffer(painter->vertex_array, STREAM, painter->vertices.id, 0, sizeof(overlay_vertex));
     gl->VertexArrayElementBuffer(painter->vertex_array, painter->indices.id);
     gl->BindVertexArray(painter->vertex_array);
 }
 
-nook_result overlay_painter_begin(overlay_painter *painter, nook_framebuffer target, uint32_t vertex_count,
-                                  uint32_t index_count)
+nook_result overlay_painter_begin(overlay_painter *painter, nook_framebuffer target, const float size[2],
+                                  uint32_t vertex_count, uint32_t index_count)
 {
     nook_program program;
     nook_result result = find_program(painter->gpu, &program);
@@ -105,6 +104,7 @@ nook_result overlay_painter_begin(overlay_painter *painter, nook_framebuffer tar
     if (result != NOOK_OK)
         return result;
     painter->target = target;
+    painter->size[0] = size[0], painter->size[1] = size[1];
     set_state(painter, program);
     return NOOK_OK;
 }
@@ -129,8 +129,9 @@ void overlay_painter_draw(overlay_painter *painter, const overlay_command *comma
 {
     const nook_gl *gl = painter->gpu->gl;
     const nook_framebuffer *target = &painter->target;
-    GLint left = clamp(command->clip[0], target->width), right = clamp(command->clip[2], target->width);
-    GLint top = clamp(command->clip[1], target->height), bottom = clamp(command->clip[3], target->height);
+    const float x = (float)target->width / painter->size[0], y = (float)target->height / painter->size[1];
+    GLint left = clamp(command->clip[0] * x, target->width), right = clamp(command->clip[2] * x, target->width);
+    GLint top = clamp(command->clip[1] * y, target->height), bottom = clamp(command->clip[3] * y, target->height);
     if (right <= left || bottom <= top || command->index_count == 0)
         return;
     gl->Scissor(left, (GLint)target->height - bottom, right - left, bottom - top);

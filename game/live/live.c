@@ -52,6 +52,7 @@ void nook_live_destroy(nook_live *live)
     if (!live)
         return;
     nook_overlay_destroy(live->overlay);
+    nook_live_capture_end(live);
     live_truth_release(live);
     live_times_release(live);
     live_targets_destroy(live);

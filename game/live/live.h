@@ -52,6 +52,15 @@ nook_result nook_live_present(nook_live *live, uint32_t width, uint32_t height);
 nook_result nook_live_picture(nook_live *live, uint32_t width, uint32_t height, uint8_t *out_rgb);
 
 /**
+ * From now on every frame that is drawn goes into a folder of PNG files, or into a video (game/live/capture.h), at the window's size
+ * as it is now. When it fails later it ends, with a line in the log.
+ * @param rate  of a video, pictures a second; 0: 30 @return as nook_capture_open
+ */
+nook_result nook_live_capture(nook_live *live, const char *path, double rate);
+/** Ends it; waits until a video is whole. @return NOOK_E_IO */
+nook_result nook_live_capture_end(nook_live *live);
+
+/**
  * Keeps the frame that the next draw makes, whatever the host's camera and world do, and traces its truth in the background; or
  * goes on. The host pauses its world meanwhile. The key T does the same.
  */

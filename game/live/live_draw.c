@@ -175,64 +175,9 @@ nook_result nook_live_draw(nook_live *live, const nook_camera *camera)
     result = draw_views(live, &state);
     if (live->held == NOOK_LIVE_SPLITS_MAX && !(live->overlay_used && nook_overlay_busy(live->overlay)))
         nook_live_history_push(&live->history, &state);
-    return result;
-}
-
-/* ---- Where it goes ------------------------------------------------------------------------------------------------ */
-
-static void copy_image(nook_live *live, nook_framebuffer target)
-{
-    live->stage->gpu->gl->BlitNamedFramebuffer(live->targets.image.id, target.id, 0, 0, (GLint)live->stage->width,
-                                               (GLint)live->stage->height, 0, 0, (GLint)target.width,
-                                               (GLint)target.height, GL_COLOR_BUFFER_BIT, GL_LINEAR);
-}
-
-static nook_result show_on(nook_live *live, nook_framebuffer target)
-{
-    nook_result result = live_fit_image(live);
     if (result != NOOK_OK)
         return result;
-    copy_image(live, target);
-    if (!live->overlay_used)
-        return NOOK_OK;
-    live_times_begin(live, LIVE_PASS_OVERLAY);
-    result = nook_overlay_draw(live->overlay, target);
-    live_times_end(live, LIVE_PASS_OVERLAY);
-    return result;
-}
-
-nook_result nook_live_present(nook_live *live, uint32_t width, uint32_t height)
-{
-    return show_on(live, (nook_framebuffer){ 0, width, height });
-}
-
-static void flip(uint8_t *rgb, uint32_t width, uint32_t height)
-{
-    size_t row = (size_t)width * 3;
-    for (uint32_t low = 0, high = height - 1; low < high; low++, high--) {
-        for (size_t i = 0; i < row; i++) {
-            uint8_t byte = rgb[low * row + i];
-            rgb[low * row + i] = rgb[high * row + i];
-            rgb[high * row + i] = byte;
-        }
-    }
-}
-
-nook_result nook_live_picture(nook_live *live, uint32_t width, uint32_t height, uint8_t *out_rgb)
-{
-    nook_gpu *gpu = live->stage->gpu;
-    nook_texture image = { 0 };
-    nook_framebuffer target = { 0 };
-    nook_result result = nook_texture_create_2d(gpu, GL_RGBA8, width, height, GL_NEAREST, &image);
-    if (result == NOOK_OK)
-        result = nook_framebuffer_create(gpu, &image, 1, (nook_texture){ 0 }, &target);
-    if (result == NOOK_OK)
-        result = show_on(live, target);
-    if (result == NOOK_OK) {
-        nook_texture_read(gpu, image, GL_RGB, GL_UNSIGNED_BYTE, out_rgb, (size_t)width * height * 3);
-        flip(out_rgb, width, height);
-    }
-    nook_framebuffer_destroy(gpu, &target);
-    nook_texture_destroy(gpu, &image);
-    return result;
+    live_picture_by_key(live);
+    live_capture_frame(live);
+    return NOOK_OK;
 }

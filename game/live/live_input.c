@@ -92,6 +92,8 @@ static void use_keys(nook_live *live, nook_input *rest)
         live->panels = !live->panels;
     if (take(rest, NOOK_KEY_T))
         live->freeze = !live->freeze;
+    if (take(rest, NOOK_KEY_F12))
+        live->picture_asked = true;
 }
 
 /* ---- Mouse -------------------------------------------------------------------------------------------------------- */

@@ -1,7 +1,9 @@
 /** live_internal.h - the state of nook_live, shared by the files of game/live. */
 #pragma once
+#include "game/live/capture.h"
 #include "game/live/history.h"
 #include "game/live/live.h"
+#include "game/settings/settings_file.h"
 #include "modules/ao_reference/refine.h"
 
 enum {
@@ -50,6 +52,8 @@ typedef struct live_targets {
     nook_texture counts;                        /**< R32UI of the frame's size; id 0 until a mode needs it. */
     nook_framebuffer image;                     /**< Over the renderer's image. */
     uint32_t image_id;                          /**< Of that image: it changes with the size. */
+    nook_texture shot;                          /**< RGBA8, of the last picture's size; id 0 before the first. */
+    nook_framebuffer shot_target;               /**< Over it. */
     uint32_t vertex_array;                      /**< Empty: for full-screen triangles. */
 } live_targets;
 
@@ -106,6 +110,11 @@ struct nook_live {
     nook_texture visibility[NOOK_LIVE_VIEWS_MAX]; /**< That the views show; id 0: all open. */
     uint32_t frame_width, frame_height;           /**< Of the stage when the G-buffer was drawn; 0: never. */
     nook_camera camera;                           /**< Of the G-buffer. */
+    bool picture_asked;                           /**< F12 was pressed. */
+    uint32_t picture_number;                      /**< Of the last picture. */
+    nook_capture *capture;                        /**< NULL: none. */
+    uint8_t *captured;                            /**< A picture of capture_size, RGB. Owned. */
+    uint32_t capture_size[2];
     live_targets targets;
     live_truth truth;
     live_times times;
@@ -140,6 +149,8 @@ void live_take_over(nook_live *live);
 /** Chooses a technique for the active view by its number in the AO's list; its parameters as they come. */
 void live_choose_technique(nook_live *live, uint32_t number);
 nook_result live_save(nook_live *live);
+/** The active view's setting, r_max and falloff, as a file of settings holds them. */
+nook_settings_file live_settings_of_active(nook_live *live);
 
 /* live_truth.c */
 /** Traces the G-buffer that there is from now on. A failure is a note: the picture is frozen all the same. */
@@ -152,6 +163,10 @@ bool live_truth_update(nook_live *live);
 void live_truth_measure(nook_live *live);
 /** id 0: there is none yet */
 nook_texture live_truth_texture(const nook_live *live);
+
+/* live_picture.c */
+void live_picture_by_key(nook_live *live);
+void live_capture_frame(nook_live *live);
 
 /* live_probe.c */
 /** The pixel under the mouse, while there is a truth. */

@@ -51,6 +51,8 @@ void live_targets_destroy(nook_live *live)
     nook_framebuffer_destroy(gpu, &t->image);
     nook_texture_destroy(gpu, &t->error_colours);
     nook_texture_destroy(gpu, &t->amount_colours);
+    nook_framebuffer_destroy(gpu, &t->shot_target);
+    nook_texture_destroy(gpu, &t->shot);
     nook_texture_destroy(gpu, &t->counts);
     nook_texture_destroy(gpu, &t->open);
     if (t->vertex_array)

@@ -3,6 +3,7 @@
 #include "game/settings/settings_file.h"
 #include "modules/ao/technique.h"
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static double shared_value(const nook_ao *ao, const char *name)
@@ -10,6 +11,18 @@ static double shared_value(const nook_ao *ao, const char *name)
     double value = 0.0;
     nook_ao_get_param(ao, name, &value);
     return value;
+}
+
+/* Floats become the doubles that people would write for them. */
+static double shortest(double value)
+{
+    char text[32];
+    for (int digits = 6; digits <= 9; digits++) {
+        snprintf(text, sizeof text, "%.*g", digits, value);
+        if (strtof(text, NULL) == (float)value)
+            break;
+    }
+    return strtod(text, NULL);
 }
 
 /* What the AO is set to, for one of its techniques. */
@@ -38,9 +51,9 @@ void live_take_over(nook_live *live)
         nook_setting setting = setting_in_use(ao, technique);
         nook_setting_print(&setting, live->remembered[i]);
     }
-    live->views.r_max = shared_value(ao, "ao.r_max");
+    live->views.r_max = shortest(shared_value(ao, "ao.r_max"));
     live->views.falloff = shared_value(ao, "ao.falloff");
-    live->views.falloff_tau = shared_value(ao, "ao.falloff_tau");
+    live->views.falloff_tau = shortest(shared_value(ao, "ao.falloff_tau"));
 }
 
 nook_setting live_setting_of(nook_live *live, uint32_t view)
@@ -117,10 +130,16 @@ static void print_falloff(const nook_live *live, char *out, size_t capacity)
     nook_param_print_value(nook_param_find(shared, count, "falloff"), live->views.falloff, out, capacity);
 }
 
-nook_result live_save(nook_live *live)
+nook_settings_file live_settings_of_active(nook_live *live)
 {
     nook_settings_file file = { .setting = live_setting_of(live, live->views.active), .r_max = live->views.r_max };
     print_falloff(live, file.falloff, sizeof file.falloff);
+    return file;
+}
+
+nook_result live_save(nook_live *live)
+{
+    nook_settings_file file = live_settings_of_active(live);
     nook_result result = nook_settings_file_write(live->settings_path, &file, NULL);
     live_note(live, result == NOOK_OK ? "saved to %s" : "%s could not be written; the log says why",
               live->settings_path);

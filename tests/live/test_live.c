@@ -1,4 +1,5 @@
 /* Views side by side without a window: made-up keys and mice, pictures compared byte for byte. */
+#include "engine/core/file.h"
 #include "game/compare/camera.h"
 #include "game/live/live_internal.h"
 #include "game/settings/settings_file.h"
@@ -7,6 +8,7 @@
 #include "tests/support/scratch.h"
 #include <math.h>
 #include <setjmp.h>
+#include <stb/stb_image.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -24,7 +26,7 @@ typedef struct fixture {
     nook_camera camera;
     nook_live *live;
     nook_input input, rest;
-    char settings[4096];
+    char settings[4096], pictures[4096];
     uint8_t picture[SIZE];
 } fixture;
 
@@ -58,9 +60,12 @@ static int close_stage(void **state)
 static int set_up(void **state)
 {
     fixture *f = *state;
-    const nook_live_desc desc = { .stage = &f->stage,
-                                  .settings_path =
-                                      nook_scratch_path(f->settings, sizeof f->settings, "live.settings") };
+    const nook_live_desc desc = {
+        .stage = &f->stage,
+        .settings_path = nook_scratch_path(f->settings, sizeof f->settings, "live.settings"),
+        .pictures = nook_scratch_path(f->pictures, sizeof f->pictures, "pictures"),
+        .notes = "level of the test",
+    };
     remove(f->settings);
     memset(&f->input, 0, sizeof f->input);
     f->input.width = WIDTH, f->input.height = HEIGHT, f->input.content_scale = 1.0;
@@ -544,6 +549,94 @@ static void test_probe_tells_of_the_pixel_under_the_mouse(void **state)
     assert_true(probed > 0);
 }
 
+static void test_key_writes_a_picture_and_what_made_it(void **state)
+{
+    fixture *f = *state;
+    char png[4200], text[4200];
+    nook_settings_file file;
+    nook_live_views_set_count(nook_live_state(f->live), 2);
+    set_setting(f, 0, "volume rays=5 ao.scale=half");
+    set_setting(f, 1, "ssao samples=7");
+    for (int i = 1; i <= 2; i++) {
+        press(f, NOOK_KEY_F12);
+        take_picture(f);
+        snprintf(png, sizeof png, "%s/nook_%04d.png", f->pictures, i);
+        snprintf(text, sizeof text, "%s/nook_%04d.settings", f->pictures, i);
+        int width = 0, height = 0, channels = 0;
+        uint8_t *pixels = stbi_load(png, &width, &height, &channels, 3);
+        assert_true(pixels && width == WIDTH && height == HEIGHT);
+        if (i == 1)
+            assert_memory_equal(pixels, f->picture, SIZE); /* later there is a note in it */
+        stbi_image_free(pixels);
+    }
+    assert_int_equal(nook_settings_file_read(text, &file), NOOK_OK);
+    char setting[NOOK_SETTING_TEXT_MAX];
+    assert_string_equal(nook_setting_print(&file.setting, setting), "volume rays=5 ao.scale=half");
+    assert_true(file.r_max == nook_live_state(f->live)->r_max);
+    nook_file whole;
+    assert_int_equal(nook_file_read(text, &whole), NOOK_OK);
+    assert_non_null(strstr((char *)whole.bytes, "ssao samples=7"));
+    assert_non_null(strstr((char *)whole.bytes, "--camera "));
+    assert_non_null(strstr((char *)whole.bytes, "level of the test"));
+    nook_file_free(&whole);
+}
+
+static void test_picture_that_cannot_be_written_is_said_and_the_frames_go_on(void **state)
+{
+    fixture *f = *state;
+    nook_log_capture log;
+    snprintf(f->live->pictures, sizeof f->live->pictures, "/proc/no such folder");
+    nook_log_capture_begin(&log);
+    press(f, NOOK_KEY_F12);
+    nook_log_capture_end();
+    assert_int_equal(log.count, 1);
+    assert_non_null(strstr(f->live->note, "could not be written"));
+    step(f);
+}
+
+static void test_saved_settings_read_back(void **state)
+{
+    fixture *f = *state;
+    nook_settings_file file;
+    set_setting(f, 0, "gtao slices=3 ao.scale=quarter");
+    nook_live_state(f->live)->falloff = 2.0;
+    step(f);
+    assert_int_equal(live_save(f->live), NOOK_OK);
+    assert_int_equal(nook_settings_file_read(f->settings, &file), NOOK_OK);
+    char setting[NOOK_SETTING_TEXT_MAX];
+    assert_string_equal(nook_setting_print(&file.setting, setting), "gtao slices=3 ao.scale=quarter");
+    assert_string_equal(file.falloff, "quadratic");
+    assert_non_null(strstr(f->live->note, f->settings));
+    snprintf(f->live->settings_path, sizeof f->live->settings_path, "/proc/no such folder/x");
+    nook_log_capture log;
+    nook_log_capture_begin(&log);
+    nook_result result = live_save(f->live);
+    nook_log_capture_end();
+    assert_int_equal(result, NOOK_E_IO);
+}
+
+static void test_captured_frames_are_what_is_seen(void **state)
+{
+    fixture *f = *state;
+    char folder[4096], png[4200];
+    nook_scratch_path(folder, sizeof folder, "captured");
+    step(f);
+    assert_int_equal(nook_live_capture(f->live, folder, 0.0), NOOK_OK);
+    step(f);
+    press(f, NOOK_KEY_2);
+    take_picture(f);
+    assert_int_equal(nook_live_capture_end(f->live), NOOK_OK);
+    step(f);
+    int width = 0, height = 0, channels = 0;
+    snprintf(png, sizeof png, "%s/frame_000002.png", folder);
+    uint8_t *pixels = stbi_load(png, &width, &height, &channels, 3);
+    assert_non_null(pixels);
+    assert_memory_equal(pixels, f->picture, SIZE);
+    stbi_image_free(pixels);
+    snprintf(png, sizeof png, "%s/frame_000003.png", folder);
+    assert_false(nook_file_exists(png));
+}
+
 static void test_stage_may_change_its_size(void **state)
 {
     fixture *f = *state;
@@ -617,6 +710,10 @@ int main(void)
         TEST(test_truth_follows_the_reach_that_is_changed),
         TEST(test_frame_of_another_size_is_frozen_anew),
         TEST(test_probe_tells_of_the_pixel_under_the_mouse),
+        TEST(test_key_writes_a_picture_and_what_made_it),
+        TEST(test_picture_that_cannot_be_written_is_said_and_the_frames_go_on),
+        TEST(test_saved_settings_read_back),
+        TEST(test_captured_frames_are_what_is_seen),
         TEST(test_stage_may_change_its_size),
         TEST(test_times_have_a_panel_of_their_own_only_where_there_is_room),
     };
