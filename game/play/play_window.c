@@ -4,6 +4,7 @@
 #include "engine/core/log.h"
 #include "game/exposure.h"
 #include "game/play/play_panels.h"
+#include "game/play/play_reload.h"
 #include "game/techniques.h"
 #include "game/volumes.h"
 #include <math.h>
@@ -91,8 +92,7 @@ static nook_result begin(nook_play_window *w, const nook_play_window_desc *desc)
     nook_camera camera = camera_of(w, 1.0);
     result = nook_stage_expose(&w->stage, &camera);
     if (w->has_window) {
-        if (nook_shader_reload_create(w->stage.gpu, &w->shaders) != NOOK_OK)
-            nook_log_warning("play: shaders that are saved are not seen before the next start");
+        nook_play_watch(w);
         nook_context_show(w->stage.context);
         nook_context_set_fullscreen(w->stage.context, w->preferences.full_screen);
     }
@@ -136,7 +136,7 @@ nook_result nook_play_window_close(nook_play_window *w)
         nook_result written = nook_preferences_write(w->preferences_path, &w->preferences);
         result = result == NOOK_OK ? written : result;
     }
-    nook_shader_reload_destroy(w->shaders);
+    nook_play_unwatch(w);
     nook_live_destroy(w->live);
     nook_stage_close(&w->stage);
     memset(w, 0, sizeof *w);
@@ -247,20 +247,10 @@ static void use_input(nook_play_window *w, const nook_input *input, double secon
     }
 }
 
-/* What is wrong with shaders and code that were saved: what runs is what was good last. */
-static void show_troubles(nook_play_window *w)
-{
-    nook_live_message(w->live, "code", w->trouble);
-    if (!w->shaders)
-        return;
-    nook_shader_reload_poll(w->shaders);
-    nook_live_message(w->live, "shaders", nook_shader_reload_status(w->shaders)->error);
-}
-
 static nook_result draw(nook_play_window *w)
 {
     nook_result result = fit_picture(w);
-    show_troubles(w);
+    nook_play_take_changes(w);
     if (w->has_window)
         draw_panels(w);
     if (result == NOOK_OK)

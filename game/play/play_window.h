@@ -10,6 +10,7 @@
  */
 #pragma once
 #include "game/live/live.h"
+#include "game/live/settings_reload.h"
 #include "game/live/shader_reload.h"
 #include "game/play/controls.h"
 #include "game/play/play.h"
@@ -47,8 +48,9 @@ typedef struct nook_play_told {
 typedef struct nook_play_window {
     nook_play play;
     nook_stage stage;
-    nook_live *live;             /**< Views, panels and messages over the picture. */
-    nook_shader_reload *shaders; /**< NULL: they cannot be watched, or nobody looks. */
+    nook_live *live;                      /**< Views, panels and messages over the picture. */
+    nook_shader_reload *shaders;          /**< NULL: they cannot be watched, or nobody looks. */
+    nook_settings_reload *settings_watch; /**< The same of the settings file. */
     nook_settings_file settings;
     nook_controls controls;
     nook_preferences preferences, kept; /**< Now, and as they are on disk. */

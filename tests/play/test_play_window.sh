@@ -5,6 +5,10 @@ source tests/support/shell.sh
 source tests/support/window.sh
 level=tests/play/data/crate.level
 
+# red_in PICTURE: 1 when there is the red of messages in it; letters are smoothed.
+red_in() { convert "$1" -fuzz 15% -fill black +opaque "rgb(255,110,100)" -format "%[fx:mean > 0 ? 1 : 0]" info:; }
+export -f red_in
+
 # in_game SCRIPT [OPTION...]: beside `nook play $level`; an interrupt ends it.
 in_game() {
     local beside=$1
@@ -63,11 +67,24 @@ test_a_saved_shader_is_seen_in_the_game_a_broken_one_is_said_and_the_mended_one_
         echo "float broken = no_such_name;" >>"$shader"
         wait_for 30 log_has "shaders/render/view.frag.glsl:.*no_such_name"
         has_pixel 310 190 FF00FF
-        import -window "$window" "$tmp/error.png"
+        has_red() { import -window "$window" "$tmp/error.png"; [ "$(red_in "$tmp/error.png")" = 1 ]; }
+        wait_for 30 has_red
         sed -i "/no_such_name/d; s/vec4(1.0, 0.0, 1.0, 1.0)/vec4(0.0, 1.0, 0.0, 1.0)/" "$shader"
         wait_for 30 has_pixel 310 190 00FF00'
-    # the message stands on the magenta picture in red letters
-    [ "$(convert "$tmp/error.png" -fuzz 15% -fill black +opaque 'rgb(255,110,100)' -format '%[fx:mean > 0 ? 1 : 0]' info:)" = 1 ]
+}
+
+test_a_saved_settings_file_is_used_a_wrong_one_is_said_and_the_old_one_stays() {
+    printf 'technique = volume\nrays = 2\n' >"$tmp/live.settings"
+    in_game '
+        printf "technique = hbao\ndirections = 3\n" >"$tmp/new"
+        mv "$tmp/new" "$tmp/live.settings" # as editors save
+        wait_for 30 log_has "settings taken over: hbao directions=3"
+        echo "directions = many" >>"$tmp/live.settings"
+        wait_for 30 log_has "live.settings:3"
+        has_red() { import -window "$window" "$tmp/wrong.png"; [ "$(red_in "$tmp/wrong.png")" = 1 ]; }
+        wait_for 30 has_red
+        printf "technique = ssao\n" >"$tmp/live.settings"
+        wait_for 30 log_has "settings taken over: ssao"' --settings "$tmp/live.settings"
 }
 
 test_without_a_display_one_line_says_what_to_give() {

@@ -1,0 +1,52 @@
+/* Files that are saved while one plays: shaders, settings. What is wrong with them stands on the screen; what ran goes on. */
+#include "game/play/play_reload.h"
+#include "engine/core/log.h"
+#include <string.h>
+
+void nook_play_watch(nook_play_window *w)
+{
+    if (nook_shader_reload_create(w->stage.gpu, &w->shaders) != NOOK_OK)
+        nook_log_warning("play: shaders that are saved are not seen before the next start");
+    if (*w->settings_path && nook_settings_reload_create(w->settings_path, &w->settings_watch) != NOOK_OK)
+        nook_log_warning("play: %s is not read again before the next start", w->settings_path);
+}
+
+void nook_play_unwatch(nook_play_window *w)
+{
+    nook_settings_reload_destroy(w->settings_watch);
+    nook_shader_reload_destroy(w->shaders);
+    w->settings_watch = NULL;
+    w->shaders = NULL;
+}
+
+/* The active view shows the setting; reach and falloff are of all views. Volumes keep their resolution until the next start. */
+static void use_settings(nook_play_window *w, const nook_settings_file *file)
+{
+    nook_live_views *views = nook_live_state(w->live);
+    char text[NOOK_SETTING_TEXT_MAX] = "";
+    double falloff;
+    nook_setting_print(&file->setting, text);
+    memcpy(views->views[views->active].setting, text, sizeof text);
+    if (file->r_max > 0.0)
+        views->r_max = file->r_max;
+    if (file->falloff[0] && nook_ao_parse_param(w->stage.ao, "ao.falloff", file->falloff) == NOOK_OK &&
+        nook_ao_get_param(w->stage.ao, "ao.falloff", &falloff) == NOOK_OK)
+        views->falloff = falloff;
+    w->settings = *file;
+    nook_log_info("play: settings taken over: %s", text);
+}
+
+void nook_play_take_changes(nook_play_window *w)
+{
+    nook_settings_file settings;
+    if (w->settings_watch) {
+        if (nook_settings_reload_poll(w->settings_watch, &settings))
+            use_settings(w, &settings);
+        nook_live_message(w->live, "settings", nook_settings_reload_error(w->settings_watch));
+    }
+    if (w->shaders) {
+        nook_shader_reload_poll(w->shaders);
+        nook_live_message(w->live, "shaders", nook_shader_reload_status(w->shaders)->error);
+    }
+    nook_live_message(w->live, "code", w->trouble);
+}
