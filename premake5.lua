@@ -65,7 +65,7 @@ end
 local libraries = {} -- names in link order: what uses stands before what is used
 
 -- pattern: "/**.c" is the folder with all below it, "/*.c" without. A folder without sources (headers only, or not written yet) makes no library and is not linked.
-local engine, exchanged = {}, {} -- archives of engine/, and those of game/ and modules/ that are no techniques; in link order
+local engine, exchanged = {}, {} -- archives of engine/, and those of game/ and modules/, in link order
 
 local function library(name, make_project, folder, pattern)
   local sources = os.matchfiles(folder .. pattern)
@@ -74,11 +74,7 @@ local function library(name, make_project, folder, pattern)
   make_project(name, "StaticLib")
   files { folder .. pattern }
   table.insert(libraries, 1, name)
-  if folder:match("^engine/") then
-    table.insert(engine, 1, name)
-  elseif not folder:match("^modules/ao_") then
-    table.insert(exchanged, 1, name)
-  end
+  table.insert(folder:match("^engine/") and engine or exchanged, 1, name)
 end
 
 -- Parts, lowest first; a part uses only what stands above it here (docs/architecture.md).

@@ -55,6 +55,11 @@ static nook_result frame(void *state, const nook_module_news *news, bool *out_ru
     return result;
 }
 
+static void suspend(void *state)
+{
+    nook_live_suspend(((nook_play_window *)state)->live);
+}
+
 static nook_result resume(void *state, const nook_module_news *news)
 {
     nook_play_window *window = state;
@@ -76,5 +81,6 @@ const nook_module nook_play_module = {
     .create = create,
     .destroy = destroy,
     .frame = frame,
+    .suspend = suspend,
     .resume = resume,
 };
