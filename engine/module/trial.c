@@ -91,10 +91,11 @@ static nook_result start_again(nook_module_host *host)
 
 nook_result nook_module_host_put_back(nook_module_host *host, const nook_module_reason *reason)
 {
-    nook_module_reason again;
+    nook_module_reason again, said;
     nook_result result = NOOK_OK;
     bool made = host->slots[0].swapped && host->fate == NOOK_STATE_MADE;
-    nook_module_host_say(host, reason);
+    nook_module_refuse(&said, NOOK_OK, "%s; the code before it goes on", reason->text);
+    nook_module_host_say(host, &said);
     refuse_suspects(host, reason->address);
     nook_module_host_suspend(host);
     if (made || host->state_before)
