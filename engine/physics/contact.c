@@ -6,7 +6,7 @@
 
 enum { FOUND_MAX = 512 }; /* contacts of one pair of shapes before they are merged */
 
-/* ---- pairs ---- */
+/* ---- pairs -------------------------------------------------------------------------------------------------------- */
 
 bool nook_physics_may_touch(const physics_body *a, const physics_body *b)
 {
@@ -69,41 +69,34 @@ static bool collide_pair(nook_physics *p, dGeomID g1, dGeomID g2)
     return true;
 }
 
+/* ---- who touches whom --------------------------------------------------------------------------------------------- */
+
+/*
+ * Bodies that move are looked at one after another: what does each touch that was not looked at before it? What rests and is
+ * touched wakes and stands at the end of the queue, so that it has all of its own contacts in the same piece of a step. Who sleeps
+ * away from all that costs nothing.
+ */
+
 static void enqueue(nook_physics *p, physics_body *body)
 {
-    if (body->motion != NOOK_BODY_DYNAMIC || body->activity != PHYSICS_RESTS)
-        return;
     body->activity = PHYSICS_QUEUED;
     p->queue[p->queue_count++] = body;
 }
 
-/* ---- who touches whom ---- */
-
-/* Every pair of which one moved already when the step began. */
-static void near_moving(void *user, dGeomID g1, dGeomID g2)
+static void wake_touched(nook_physics *p, physics_body *body)
 {
-    physics_body *a = dGeomGetData(g1), *b = dGeomGetData(g2);
-    if ((a->activity != PHYSICS_MOVES && b->activity != PHYSICS_MOVES) || !nook_physics_may_touch(a, b))
+    if (body->motion != NOOK_BODY_DYNAMIC || body->activity != PHYSICS_RESTS)
         return;
-    if (collide_pair(user, g1, g2)) {
-        enqueue(user, a);
-        enqueue(user, b);
-    }
+    nook_physics_wake_body(body);
+    enqueue(p, body);
 }
 
-/* Of a body that was woken, in g1: every pair that neither near_moving had nor one that was woken before. */
-static void near_woken(void *user, dGeomID g1, dGeomID g2)
+static void near_moving(void *user, dGeomID g1, dGeomID g2)
 {
-    physics_body *a = dGeomGetData(g1), *b = dGeomGetData(g2);
-    const physics_body *other = a->activity == PHYSICS_WOKEN ? b : a;
-    if (a->activity == PHYSICS_WOKEN && b->activity == PHYSICS_WOKEN)
-        return;
-    if (other->activity == PHYSICS_MOVES || !nook_physics_may_touch(a, b))
-        return;
-    if (collide_pair(user, g1, g2)) {
-        enqueue(user, a);
-        enqueue(user, b);
-    }
+    nook_physics *p = user;
+    physics_body *a = dGeomGetData(g1), *b = dGeomGetData(g2), *other = a == p->in_hand ? b : a;
+    if (other->activity != PHYSICS_LOOKED && nook_physics_may_touch(a, b) && collide_pair(p, g1, g2))
+        wake_touched(p, other);
 }
 
 static void near_fixed(void *user, dGeomID g1, dGeomID g2)
@@ -112,14 +105,16 @@ static void near_fixed(void *user, dGeomID g1, dGeomID g2)
         collide_pair(user, g1, g2);
 }
 
-static void mark_activity(nook_physics *p)
+static void queue_moving(nook_physics *p)
 {
     p->queue_count = 0;
     for (uint32_t i = 0; i < p->body_count; i++) {
         physics_body *body = p->bodies[i];
         bool moves = body->motion == NOOK_BODY_DYNAMIC ? dBodyIsEnabled(body->ode) : body->aimed;
-        body->activity = moves ? PHYSICS_MOVES : PHYSICS_RESTS;
+        body->activity = PHYSICS_RESTS;
         body->touches = false;
+        if (moves && !body->ghost)
+            enqueue(p, body);
     }
 }
 
@@ -131,12 +126,11 @@ static void collide_body(nook_physics *p, const physics_body *body, dSpaceID spa
 
 static void find_contacts(nook_physics *p)
 {
-    mark_activity(p);
-    dSpaceCollide(p->moving, p, near_moving);
+    queue_moving(p);
     for (uint32_t i = 0; i < p->queue_count; i++) { /* grows on the way */
-        p->queue[i]->activity = PHYSICS_WOKEN;
-        nook_physics_wake_body(p->queue[i]);
-        collide_body(p, p->queue[i], p->moving, near_woken);
+        p->in_hand = p->queue[i];
+        collide_body(p, p->queue[i], p->moving, near_moving);
+        p->queue[i]->activity = PHYSICS_LOOKED;
     }
     for (uint32_t i = 0; i < p->body_count; i++)
         if (p->bodies[i]->motion == NOOK_BODY_DYNAMIC && p->bodies[i]->activity != PHYSICS_RESTS)
@@ -159,7 +153,7 @@ static void keep_resting(nook_physics *p, uint32_t old_count)
     p->kept_count = kept;
 }
 
-/* ---- joints ---- */
+/* ---- joints ------------------------------------------------------------------------------------------------------- */
 
 static void point_velocity(dBodyID body, const double at[3], double out[3])
 {

@@ -22,12 +22,11 @@ typedef struct physics_shape {
     uint32_t *indices;
 } physics_shape;
 
-/* Whether a body takes part in a step: see contact.c. */
+/* Whether a body takes part in a piece of a step: see contact.c. */
 typedef enum physics_activity {
     PHYSICS_RESTS,  /* asleep, static, or kinematic and not moved */
-    PHYSICS_MOVES,  /* since the step began */
-    PHYSICS_QUEUED, /* was touched in this step by what moves: its own contacts are still to be found */
-    PHYSICS_WOKEN   /* and they were */
+    PHYSICS_QUEUED, /* moves, or was touched by what moves: its contacts are still to be found */
+    PHYSICS_LOOKED  /* and they were */
 } physics_activity;
 
 typedef struct physics_body {
@@ -51,6 +50,7 @@ typedef struct physics_body {
     double force[3];
     double drift[3], spin[3]; /* what its velocities are on average of late */
     uint32_t rest_steps;      /* that these have been those of a body at rest */
+    uint32_t slow_steps;      /* that they were not far from it */
     uint32_t island;          /* while the step looks for who may sleep: index into bodies */
     uint64_t query_stamp;     /* of the last overlap query that met it */
 } physics_body;
@@ -74,8 +74,9 @@ struct nook_physics {
     uint32_t body_count, body_capacity, last_id;
     physics_contact *contacts;
     uint32_t contact_count, contact_capacity, kept_count; /* the first kept_count are of sleeping bodies */
-    physics_body **queue;                                 /* of PHYSICS_QUEUED; body_capacity */
+    physics_body **queue; /* of all that were PHYSICS_QUEUED in this piece, in that order; body_capacity */
     uint32_t queue_count;
+    const physics_body *in_hand; /* whose contacts are looked for */
     bool out_of_memory;
     uint64_t steps, query_stamp;
     nook_physics_statistics statistics;

@@ -40,7 +40,8 @@ static bool triangle_of(const mesh_pair *pair, const dContactGeom *contact, tria
     double e1[3], e2[3];
     dGeomTriMeshGetTriangle(pair->mesh, index, &corners[0], &corners[1], &corners[2]);
     for (int i = 0; i < 3; i++)
-        memcpy(out->corners[i], corners[i], sizeof out->corners[i]);
+        for (int k = 0; k < 3; k++)
+            out->corners[i][k] = corners[i][k];
     nook_vector_add_scaled(out->corners[1], -1.0, out->corners[0], e1);
     nook_vector_add_scaled(out->corners[2], -1.0, out->corners[0], e2);
     nook_vector_cross(e1, e2, out->normal);

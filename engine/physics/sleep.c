@@ -8,7 +8,7 @@ bool nook_physics_sleeps(const physics_body *body)
 
 void nook_physics_wake_body(physics_body *body)
 {
-    body->rest_steps = 0;
+    body->rest_steps = body->slow_steps = 0;
     body->bedded = false;
     if (body->motion == NOOK_BODY_DYNAMIC)
         dBodyEnable(body->ode);
@@ -53,8 +53,11 @@ static bool is_calm(physics_body *body)
         body->drift[i] += share * (way[i] / NOOK_PHYSICS_STEP - body->drift[i]);
         body->spin[i] += share * (turn[i] - body->spin[i]);
     }
-    return nook_vector_length(body->drift) <= nook_physics_tuning.sleep_drift &&
-           nook_vector_length(body->spin) <= nook_physics_tuning.sleep_spin;
+    /* of the velocities at which a body rests; what creeps for long, in a heap that wedges it, is taken for resting too */
+    double speed = fmax(nook_vector_length(body->drift) / nook_physics_tuning.sleep_drift,
+                        nook_vector_length(body->spin) / nook_physics_tuning.sleep_spin);
+    body->slow_steps = speed < nook_physics_tuning.sleep_slow ? body->slow_steps + 1 : 0;
+    return speed <= 1.0 + body->slow_steps * NOOK_PHYSICS_STEP / nook_physics_tuning.sleep_patience;
 }
 
 /* Islands as a forest over bodies that touch: each points at another of its island, the root at itself. */

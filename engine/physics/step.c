@@ -83,9 +83,17 @@ static void follow_parabolas(nook_physics *p, double seconds)
     }
 }
 
+/* Few contacts can be solved well at no cost worth mentioning; many must do with less. */
+static int iterations_for(uint32_t contacts)
+{
+    const physics_tuning *t = &nook_physics_tuning;
+    return (int)fmax(t->iterations_min, fmin(t->iterations_max, t->iterations_work / fmax(1.0, contacts)));
+}
+
 static void advance(nook_physics *p, double seconds)
 {
     nook_physics_collide(p);
+    dWorldSetQuickStepNumIterations(p->world, iterations_for(p->contact_count - p->kept_count));
     apply_forces(p, seconds);
     dRandSetSeed(p->random);
     dWorldQuickStep(p->world, seconds);

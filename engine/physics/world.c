@@ -51,7 +51,6 @@ static void set_up_world(nook_physics *p)
     dWorldSetERP(p->world, t->error_reduction);
     dWorldSetCFM(p->world, t->force_mixing);
     dWorldSetQuickStepW(p->world, t->relaxation);
-    dWorldSetQuickStepNumIterations(p->world, (int)t->iterations);
     dWorldSetContactMaxCorrectingVel(p->world, t->contact_speed);
     dWorldSetContactSurfaceLayer(p->world, t->contact_layer);
     dWorldSetAutoDisableFlag(p->world, 0); /* sleep.c does that, and for all that touch each other at once */
@@ -73,8 +72,8 @@ nook_result nook_physics_create(const nook_physics_desc *desc, nook_physics **ou
     p->gravity = desc->gravity != 0.0 ? desc->gravity : 9.81;
     p->random = desc->seed;
     p->world = dWorldCreate();
-    p->fixed = dSimpleSpaceCreate(NULL); /* asked about one moving shape at a time: there is nothing to sort */
-    p->moving = dSweepAndPruneSpaceCreate(NULL, dSAP_AXES_XZY);
+    p->fixed = dSimpleSpaceCreate(NULL); /* all are asked about one shape at a time: there is nothing to sort */
+    p->moving = dSimpleSpaceCreate(NULL);
     p->ghosts = dSimpleSpaceCreate(NULL);
     p->joints = dJointGroupCreate(0);
     p->ray = dCreateRay(NULL, 1.0);

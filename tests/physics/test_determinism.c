@@ -7,7 +7,7 @@
 #include <string.h>
 #include <cmocka.h>
 
-enum { BODIES = 24, STEPS = 240 };
+enum { BODIES = 24, STEPS = 150 };
 
 /* A heap of crates, drums and balls that falls on a mesh: the solver's random order matters in it. */
 static nook_physics *heap(uint32_t seed)
@@ -93,23 +93,21 @@ static void test_hash_tells_a_body_that_moved_by_a_hair(void **state)
     nook_physics_destroy(physics);
 }
 
-static void test_other_processes_come_to_the_same(void **state)
+static void test_another_process_comes_to_the_same(void **state)
 {
     (void)state;
     char own[4096], command[4200];
-    FILE *maps = fopen("/proc/self/cmdline", "r"); /* its first string is our path */
-    assert_non_null(maps);
-    assert_non_null(fgets(own, sizeof own, maps));
-    fclose(maps);
+    FILE *line = fopen("/proc/self/cmdline", "r"); /* its first string is our path */
+    assert_non_null(line);
+    assert_non_null(fgets(own, sizeof own, line));
+    fclose(line);
     snprintf(command, sizeof command, "'%s' --hash", own);
-    for (int i = 0; i < 2; i++) {
-        uint64_t theirs = 0;
-        FILE *other = popen(command, "r");
-        assert_non_null(other);
-        assert_int_equal(fscanf(other, "%" SCNx64, &theirs), 1);
-        assert_int_equal(pclose(other), 0);
-        assert_true(theirs == hash_of_run(7));
-    }
+    uint64_t theirs = 0;
+    FILE *other = popen(command, "r");
+    assert_non_null(other);
+    assert_int_equal(fscanf(other, "%" SCNx64, &theirs), 1);
+    assert_int_equal(pclose(other), 0);
+    assert_true(theirs == hash_of_run(7));
 }
 
 int main(int argc, char **argv)
@@ -124,7 +122,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(test_worlds_side_by_side_do_not_disturb_each_other),
         cmocka_unit_test(test_questions_change_nothing),
         cmocka_unit_test(test_hash_tells_a_body_that_moved_by_a_hair),
-        cmocka_unit_test(test_other_processes_come_to_the_same),
+        cmocka_unit_test(test_another_process_comes_to_the_same),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
