@@ -207,8 +207,6 @@ static double worst_picture(const drawn *a, const drawn *b, bool exact)
 nook_result nook_space_run_far_vertices_pictures(const nook_extremes *extremes, nook_extreme_found *out_found)
 {
     static const double held = 100.0, beyond[] = { 1e3, 1e4 };
-    char what[sizeof out_found->where] = "";
-    size_t used = 0;
     drawn usual, far = { 0 };
     out_found->bound = 1.0 / (RAYS * SIDE);
     nook_result result = draw_off(extremes, 0.0, true, true, out_found, &usual);
@@ -223,13 +221,13 @@ nook_result nook_space_run_far_vertices_pictures(const nook_extremes *extremes, 
         result = draw_off(extremes, beyond[i], true, true, out_found, &far);
         if (result != NOOK_OK)
             break;
-        used += (size_t)snprintf(what + used, sizeof what - used, "; at %g: reference %.3f, others %.4f", beyond[i],
-                                 worst_picture(&usual, &far, true), worst_picture(&usual, &far, false));
+        nook_extreme_state(out_found, i ? 0.6 : 0.4, 0.05, worst_picture(&usual, &far, true),
+                           "reference, vertices %g units off: RMS", beyond[i]);
+        nook_extreme_state(out_found, i ? 0.01 : 0.001, i ? 0.005 : 0.001, worst_picture(&usual, &far, false),
+                           "the worst of the others, vertices %g units off: RMS", beyond[i]);
         drawn_free(&far);
     }
     drawn_free(&usual);
-    if (result == NOOK_OK && out_found->outside == 0)
-        snprintf(out_found->where + strlen(out_found->where), sizeof out_found->where - strlen(out_found->where), "%s",
-                 what);
+    nook_extreme_state(out_found, 1.0, 0.0, (double)nextafterf(1e7f, INFINITY) - 1e7, "a float's step 1e7 units off");
     return result;
 }

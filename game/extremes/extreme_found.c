@@ -1,13 +1,35 @@
 #include "game/extremes/extremes.h"
 #include "modules/fixture/view.h"
+#include <assert.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 
+bool nook_extreme_stated_holds(const nook_extreme_stated *stated)
+{
+    return fabs(stated->measured - stated->stated) <= stated->tolerance; /* false for NaN */
+}
+
 bool nook_extreme_holds(const nook_extreme_found *found)
 {
     bool looked = found->where[0] != '\0' || found->checked > 0;
+    for (size_t i = 0; i < found->stated_count; i++) {
+        if (!nook_extreme_stated_holds(&found->stated[i]))
+            return false;
+    }
     return looked && found->measured <= found->bound && found->outside == 0; /* false for NaN */
+}
+
+void nook_extreme_state(nook_extreme_found *found, double stated, double tolerance, double measured, const char *format,
+                        ...)
+{
+    assert(found->stated_count < NOOK_EXTREME_STATED_MAX);
+    nook_extreme_stated *added = &found->stated[found->stated_count++];
+    *added = (nook_extreme_stated){ .stated = stated, .tolerance = tolerance, .measured = measured };
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(added->what, sizeof added->what, format, arguments);
+    va_end(arguments);
 }
 
 void nook_extreme_worst(nook_extreme_found *found, double value, const char *format, ...)

@@ -31,6 +31,11 @@ void nook_extreme_print_row(FILE *stream, const nook_extreme_row *row, bool firs
         fprintf(stream, " (%llu of %llu visibilities outside [0, 1])", (unsigned long long)row->found.outside,
                 (unsigned long long)row->found.checked);
     fputc('\n', stream);
+    for (size_t i = 0; i < row->found.stated_count && row->result == NOOK_OK; i++) {
+        const nook_extreme_stated *stated = &row->found.stated[i];
+        fprintf(stream, "    limit: %-81s %10.4g %10.4g  within %-15.3g %s\n", stated->what, stated->measured,
+                stated->stated, stated->tolerance, nook_extreme_stated_holds(stated) ? "as stated" : "NOT AS STATED");
+    }
 }
 
 void nook_extreme_print_summary(FILE *stream, const nook_extreme_rows *rows)
@@ -64,6 +69,23 @@ void nook_extreme_print_list(FILE *stream, const char *only)
     fprintf(stream, "%zu cases\n", nook_extreme_count(only));
 }
 
+static void write_stated(nook_json *json, const nook_extreme_found *found)
+{
+    nook_json_key(json, "stated");
+    nook_json_begin_array(json);
+    for (size_t i = 0; i < found->stated_count; i++) {
+        const nook_extreme_stated *stated = &found->stated[i];
+        nook_json_begin_object(json);
+        nook_json_member_string(json, "what", stated->what);
+        nook_json_member_number(json, "stated", stated->stated);
+        nook_json_member_number(json, "tolerance", stated->tolerance);
+        nook_json_member_number(json, "measured", stated->measured);
+        nook_json_member_bool(json, "holds", nook_extreme_stated_holds(stated));
+        nook_json_end_object(json);
+    }
+    nook_json_end_array(json);
+}
+
 static void write_row(nook_json *json, const nook_extreme_row *row)
 {
     const nook_extreme_found *found = &row->found;
@@ -80,6 +102,7 @@ static void write_row(nook_json *json, const nook_extreme_row *row)
     nook_json_member_integer(json, "visibilities", (int64_t)found->checked);
     nook_json_member_integer(json, "outside", (int64_t)found->outside);
     nook_json_member_string(json, "where", found->where);
+    write_stated(json, found);
     nook_json_member_number(json, "ms", row->ms);
     nook_json_end_object(json);
 }

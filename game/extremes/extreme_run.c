@@ -50,7 +50,9 @@ size_t nook_extreme_count(const char *only)
 
 bool nook_extreme_row_holds(const nook_extreme_row *row)
 {
-    return row->result == NOOK_OK && nook_extreme_holds(&row->found);
+    bool says_so =
+        !row->extreme->limit || row->found.stated_count > 0; /* a limit without a number that was measured is none */
+    return row->result == NOOK_OK && says_so && nook_extreme_holds(&row->found);
 }
 
 void nook_extreme_run(const nook_extremes *extremes, const nook_extreme_group *group, const nook_extreme *extreme,

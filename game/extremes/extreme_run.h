@@ -31,7 +31,7 @@ bool nook_extreme_matches(const nook_extreme_group *group, const nook_extreme *e
 /** How many cases match. */
 size_t nook_extreme_count(const char *only);
 
-/** Ran, and what must hold does. */
+/** Ran, what must hold does, and where a limit is stated, its numbers are. */
 bool nook_extreme_row_holds(const nook_extreme_row *row);
 
 /** Runs one case. An error that GL raised meanwhile makes its result NOOK_E_DEVICE. */

@@ -220,6 +220,26 @@ static nook_result check_step(canvas *c, double step, uint32_t edge, const char 
     return result;
 }
 
+/* The largest step that leaks, in footprints of a pixel by ao.filter_depth: at full scale, with the disc, by halving. */
+static nook_result find_bridge(canvas *c, double *out_bridge)
+{
+    enum { EDGE = 15, HALVINGS = 12 };
+    static const double width[] = { 2.0, 32.0 };
+    const double footprint = 2.0 / (c->view->clip_from_view.m[5] * c->view->height);
+    double least = 1.0, most = 4.0;
+    nook_result result = choose(c, 1, 4.0, width);
+    for (int i = 0; i < HALVINGS && result == NOOK_OK; i++) {
+        double middle = 0.5 * (least + most), reach = middle * width[0] * footprint;
+        nook_extreme_found leak = { 0 }, *kept = c->found;
+        c->found = &leak;
+        result = check_step(c, reach / (1.0 - reach), EDGE, "a bridge");
+        c->found = kept;
+        *(leak.measured > 0.0 ? &least : &most) = middle;
+    }
+    *out_bridge = 0.5 * (least + most);
+    return result;
+}
+
 static nook_result look_at_steps(const nook_extremes *extremes, canvas *c)
 {
     static const double depths[][2] = { { 2.0, 32.0 }, { 0.1, 32.0 }, { 8.0, 0.0 } };
@@ -235,6 +255,10 @@ static nook_result look_at_steps(const nook_extremes *extremes, canvas *c)
         for (uint32_t edge = 15; edge < (extremes->quick ? 17 : 20) && step > 0.0 && result == NOOK_OK; edge++)
             result = check_step(c, step, edge, what);
     }
+    double bridge = NAN;
+    if (result == NOOK_OK)
+        result = find_bridge(c, &bridge);
+    nook_extreme_state(c->found, 2.63, 0.01, bridge, "the largest step that leaks, ao.filter_depth footprints");
     return result;
 }
 
@@ -377,7 +401,7 @@ static const nook_extreme cases[] = {
     { .name = "nothing leaks across a step of depth that the filter does not bridge",
       .unit = "visibility leaked",
       .why = "samples of less than a thousandth of the weight have no say: exactly 0",
-      .limit = "The filter bridges steps of depth below 2.7 ao.filter_depth footprints of a trace pixel, and must, to "
+      .limit = "The filter bridges steps of depth below 2.63 ao.filter_depth footprints of a trace pixel, and must, to "
                "filter slopes.",
       .run = run_steps },
     { .name = "one pixel alone keeps its sample, and without any is fully visible",

@@ -96,8 +96,7 @@ nook_result nook_buffer_run_no_normals(const nook_extremes *extremes, nook_extre
     for (size_t i = 0; result == NOOK_OK && i < count; i++)
         result = compare_plain(&scene, techniques[i]->name, pictures, pictures + scene.pixels, out_found, &whole);
     free(pictures);
-    size_t used = strlen(out_found->where);
-    snprintf(out_found->where + used, sizeof out_found->where - used, "; with the edges up to %.3f", whole);
+    nook_extreme_state(out_found, 0.04, 0.01, whole, "RMS of the worst technique, with the edges");
     nook_edge_scene_free(&scene);
     return result;
 }

@@ -108,9 +108,20 @@ static double excess_of_power(double measured, double one, uint32_t count)
     return fabs(measured - exact) / allowed;
 }
 
+/* Pixels that are 0 where a float can hold what they should be. */
+static uint32_t count_vanished(const nook_edge_receiver *receiver, const float one[PIXELS], uint32_t count)
+{
+    uint32_t vanished = 0;
+    for (int k = 0; k < PIXELS; k++)
+        vanished +=
+            receiver->view->visibility[k] == 0.0f && pow(one[k], count) > (double)FLT_MIN * (1.0 + count * 1e-7);
+    return vanished;
+}
+
 static nook_result look_at_powers(const nook_extremes *extremes, nook_edge_receiver *receiver)
 {
     receiver->found->bound = 1.0;
+    uint32_t vanished = 0;
     nook_result result = NOOK_OK;
     /* At the edge of r_max smooth falloff gives factors near 1, a little farther in the product vanishes. */
     static const double reaches[] = { 0.305, 0.33, 0.5, 2.0 };
@@ -127,11 +138,13 @@ static nook_result look_at_powers(const nook_extremes *extremes, nook_edge_recei
                 result = record(receiver, "product");
             if (count == 1)
                 keep(receiver, one);
+            vanished += count_vanished(receiver, one, count);
             for (int k = 0; k < PIXELS && result == NOOK_OK; k++)
                 nook_extreme_worst(receiver->found, excess_of_power(receiver->view->visibility[k], one[k], count),
                                    "%u of them, each %g", count, one[k]);
         }
     }
+    nook_extreme_state(receiver->found, 0.0, 0.0, vanished, "pixels that are 0 for a product of over 1.2e-38");
     return result;
 }
 
@@ -328,6 +341,9 @@ static const nook_extreme cases[] = {
     { .name = "the product of 1 to 4096 visibilities is their power, or 0 below 1.2e-38",
       .unit = "of the rounding",
       .why = "each factor rounds once to 24 bits; what no normal float holds, below 1.2e-38, may become 0",
+      .limit =
+          "combine=multiply: a product of visibilities below 1.2e-38 is 0; that is 127 volumes of which each lets half "
+          "through.",
       .run = run_powers },
     { .name = "no pixel gets lighter by more occluders, up to 4096, by union or by product",
       .unit = "visibility gained",

@@ -72,11 +72,27 @@ static double least_in_box(uint32_t steps, double threshold)
     return fmin(1.0, layer * steps / longest_path());
 }
 
+/* A of one threshold with few steps, which the limit is about. */
+typedef struct few_steps {
+    double of_8, of_16, of_64;
+} few_steps;
+
+static void keep_few(few_steps *few, uint32_t steps, double occlusion)
+{
+    if (steps == 8)
+        few->of_8 = occlusion;
+    else if (steps == 16)
+        few->of_16 = occlusion;
+    else if (steps == 64)
+        few->of_64 = occlusion;
+}
+
 static nook_result look_at_budgets(const nook_extremes *extremes, nook_edge_receiver *receiver)
 {
     static const uint32_t budgets[] = { 1, 2, 4, 8, 16, 32, 64, 128, 256, 1024 };
     const uint32_t rays = extremes->quick ? 16 : 256;
     nook_result result = show_box(receiver);
+    few_steps few = { NAN, NAN, NAN };
     receiver->found->bound = 3.0;
     for (size_t k = 0; k < NOOK_COUNT(budgets) * NOOK_COUNT(thresholds) * 4 && result == NOOK_OK; k++) {
         double threshold = thresholds[k / 4 % NOOK_COUNT(thresholds)];
@@ -91,8 +107,12 @@ static nook_result look_at_budgets(const nook_extremes *extremes, nook_edge_rece
         if (result == NOOK_OK)
             nook_extreme_worst(receiver->found, (least - occlusion.mean) / deviation,
                                "%s: A %.4f, at least %.4f expected", setting, occlusion.mean, least);
+        if (threshold == 0.5 && k % 4 == 0)
+            keep_few(&few, steps, occlusion.mean);
         nook_extreme_progress(extremes, (double)k / (NOOK_COUNT(budgets) * NOOK_COUNT(thresholds) * 4));
     }
+    nook_extreme_state(receiver->found, 1.0, 0.0, few.of_64, "A of 64 steps, threshold 0.5, across up to 57 voxels");
+    nook_extreme_state(receiver->found, 2.0, 0.2, few.of_16 / few.of_8, "A of 16 steps by that of 8");
     return result;
 }
 

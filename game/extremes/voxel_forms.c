@@ -4,8 +4,7 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* Its middle overhead. */
-static double square_overhead(double side, double height)
+double nook_square_overhead(double side, double height)
 {
     return 4.0 * nook_form_level_rectangle(NOOK_FORM_COSINE, 0.5 * side, 0.5 * side, height);
 }
@@ -17,8 +16,8 @@ static double square_overhead(double side, double height)
  */
 double nook_layer_loss(double occlusion, double height, uint32_t side)
 {
-    const double voxel = 1.0 / side, lacking = log(2.0) - 0.5, truth = square_overhead(1.0, height);
-    double fewest = square_overhead(1.0 - 2.0 * lacking * voxel, height + 0.5 * voxel);
+    const double voxel = 1.0 / side, lacking = log(2.0) - 0.5, truth = nook_square_overhead(1.0, height);
+    double fewest = nook_square_overhead(1.0 - 2.0 * lacking * voxel, height + 0.5 * voxel);
     return fabs(occlusion - truth) / (truth - fewest);
 }
 

@@ -5,6 +5,9 @@
 #pragma once
 #include <stdint.h>
 
+/** A of a square of `side` at `height`, its middle overhead; metres. */
+double nook_square_overhead(double side, double height);
+
 /**
  * The error of A under a square of one metre, one layer of voxels thick, overhead, as a part of what the filter may take of it.
  * @param height metres to its lower face @param side voxels along it @return at most 1

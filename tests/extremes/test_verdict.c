@@ -46,6 +46,20 @@ static void test_one_visibility_outside_does_not_hold(void **state)
         nook_extreme_holds(&(nook_extreme_found){ .measured = 0.0, .bound = 1.0, .outside = 1, .where = "here" }));
 }
 
+static void test_a_stated_number_holds_within_its_tolerance_and_else_nothing_does(void **state)
+{
+    (void)state;
+    nook_extreme_found found = { .bound = 1.0, .where = "here" };
+    nook_extreme_state(&found, 0.6, 0.01, 0.609, "A with %d voxels", 2);
+    assert_string_equal(found.stated[0].what, "A with 2 voxels");
+    assert_true(nook_extreme_holds(&found));
+    nook_extreme_state(&found, 0.6, 0.01, 0.589, "too low");
+    assert_false(nook_extreme_holds(&found));
+    found.stated_count = 1;
+    nook_extreme_state(&found, 0.6, 0.01, NAN, "not measured");
+    assert_false(nook_extreme_holds(&found));
+}
+
 static void test_worst_keeps_the_largest_and_its_place(void **state)
 {
     (void)state;
@@ -116,11 +130,19 @@ static nook_result misuse_gl(const nook_extremes *extremes, nook_extreme_found *
     return NOOK_OK;
 }
 
+static nook_result state_wrongly(const nook_extremes *extremes, nook_extreme_found *out_found)
+{
+    nook_extreme_state(out_found, 2.0, 0.5, 3.0, "what is stated");
+    return hold(extremes, out_found);
+}
+
 static const nook_extreme made_up[] = {
     { .name = "holds", .unit = "units", .why = "because", .run = hold },
     { .name = "exceeds", .unit = "units", .why = "because", .limit = "up to 2", .run = exceed },
     { .name = "breaks down", .unit = "units", .why = "because", .run = break_down },
     { .name = "misuses GL", .unit = "units", .why = "because", .run = misuse_gl },
+    { .name = "states nothing", .unit = "units", .why = "because", .limit = "up to 3", .run = hold },
+    { .name = "states wrongly", .unit = "units", .why = "because", .limit = "up to 4", .run = state_wrongly },
 };
 static const nook_extreme_group group = { .name = "made up", .cases = made_up, .count = NOOK_COUNT(made_up) };
 
@@ -145,17 +167,17 @@ static void test_only_what_ran_within_its_bound_without_a_gl_error_holds(void **
     assert_int_equal(rows[2].result, NOOK_E_MEMORY);
     assert_int_equal(rows[3].result, NOOK_E_DEVICE);
     nook_extreme_summary sum = nook_extreme_summarize(&(nook_extreme_rows){ rows, NOOK_COUNT(made_up) });
-    assert_int_equal(sum.cases, 4);
+    assert_int_equal(sum.cases, 6);
     assert_int_equal(sum.groups, 1);
     assert_int_equal(sum.holding, 1);
-    assert_int_equal(sum.failing, 3);
-    assert_int_equal(sum.limits, 1);
-    assert_int_equal(sum.checked, 10);
+    assert_int_equal(sum.failing, 5);
+    assert_int_equal(sum.limits, 3);
+    assert_int_equal(sum.checked, 30);
 }
 
 static void test_reports_name_each_verdict(void **state)
 {
-    static const char *const verdicts[] = { "holds", "FAILS", "ERROR", "ERROR" };
+    static const char *const verdicts[] = { "holds", "FAILS", "ERROR", "ERROR", "FAILS", "NOT AS STATED" };
     nook_extreme_row rows[NOOK_COUNT(made_up)];
     run_made_up(state, rows);
     for (size_t i = 0; i < NOOK_COUNT(made_up); i++) {
@@ -171,7 +193,8 @@ static void test_reports_name_each_verdict(void **state)
     nook_extreme_write_json(&json, &(nook_extreme_rows){ rows, NOOK_COUNT(made_up) }, "a renderer", true);
     assert_int_equal(nook_json_finish(&json, &text, NULL), NOOK_OK);
     assert_non_null(strstr(text, "\"limit\": \"up to 2\""));
-    assert_non_null(strstr(text, "\"failing\": 3"));
+    assert_non_null(strstr(text, "\"failing\": 5"));
+    assert_non_null(strstr(text, "\"what\": \"what is stated\""));
     nook_json_free(&json);
 }
 
@@ -225,6 +248,7 @@ int main(void)
         cmocka_unit_test(test_more_than_the_bound_does_not_hold),
         cmocka_unit_test(test_nan_does_not_hold),
         cmocka_unit_test(test_one_visibility_outside_does_not_hold),
+        cmocka_unit_test(test_a_stated_number_holds_within_its_tolerance_and_else_nothing_does),
         cmocka_unit_test(test_worst_keeps_the_largest_and_its_place),
         cmocka_unit_test(test_worst_keeps_nan_whatever_comes_after),
         cmocka_unit_test(test_check_counts_what_is_no_visibility),
