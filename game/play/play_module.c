@@ -35,7 +35,8 @@ static nook_result create(void *state, const nook_module_news *news)
                                          .height = (uint32_t)request.size.height,
                                          .settings = request.settings,
                                          .cache = request.cache,
-                                         .pictures = request.pictures };
+                                         .pictures = request.pictures,
+                                         .capture = request.capture };
     return nook_play_window_open(arguments->root, &desc, state);
 }
 

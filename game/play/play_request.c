@@ -56,6 +56,12 @@ bool nook_play_request_read(const char *root, int argc, char **argv, nook_play_r
           .target = &out->pictures,
           .placeholder = "DIR",
           .help = "where the pictures go that F12 takes; default out" },
+        { .name = "capture",
+          .kind = NOOK_OPTION_TEXT,
+          .target = &out->capture,
+          .placeholder = "DIR|FILE",
+          .help = "every frame as a PNG into a folder, or a video by ffmpeg (.mp4, .mkv, .webm, .gif); frames then\n"
+                  "                             last 1/30 s each, however long they take" },
         nook_option_row_backend(&out->backend),
         nook_option_row_cache(&out->cache, "baked volumes and the player's preferences; default: cache/ of Nook"),
     };

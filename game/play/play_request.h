@@ -8,7 +8,7 @@
 typedef struct nook_play_request {
     nook_play_desc desc;
     bool headless;
-    const char *settings, *cache, *pictures;
+    const char *settings, *cache, *pictures, *capture; /**< capture: NULL for none. */
     nook_option_size size;
     nook_backend backend;
     char default_cache[NOOK_OPTION_PATH_MAX];

@@ -11,6 +11,7 @@
 #include <stdio.h>
 #include <string.h>
 
+static const double captured_rate = 30.0; /* pictures a second */
 static const double degree = 3.14159265358979323846 / 180.0;
 
 /* ---- Opening and closing ----------------------------------------------------------------------------------------- */
@@ -88,6 +89,10 @@ static nook_result begin(nook_play_window *w, const nook_play_window_desc *desc)
         result = make_live(w, desc->pictures);
     if (result != NOOK_OK)
         return result;
+    if (desc->capture)
+        result = nook_live_capture(w->live, desc->capture, captured_rate);
+    if (result != NOOK_OK)
+        return result;
     nook_session_place(w->play.session, 1.0);
     nook_camera camera = camera_of(w, 1.0);
     result = nook_stage_expose(&w->stage, &camera);
@@ -104,8 +109,9 @@ nook_result nook_play_window_open(const char *root, const nook_play_window_desc 
 {
     nook_play_window *w = out_window;
     memset(w, 0, sizeof *w);
-    w->frame_seconds = desc->frame_seconds;
+    w->frame_seconds = desc->capture ? 1.0 / captured_rate : desc->frame_seconds;
     w->driven = desc->driven;
+    w->captures = desc->capture != NULL;
     nook_path_join(w->preferences_path, sizeof w->preferences_path, desc->cache, "preferences.txt");
     nook_preferences_read(w->preferences_path, &w->preferences);
     w->kept = w->preferences;
@@ -137,6 +143,10 @@ nook_result nook_play_window_close(nook_play_window *w)
         result = result == NOOK_OK ? written : result;
     }
     nook_play_unwatch(w);
+    if (w->live) {
+        nook_result captured = nook_live_capture_end(w->live);
+        result = result == NOOK_OK ? captured : result;
+    }
     nook_live_destroy(w->live);
     nook_stage_close(&w->stage);
     memset(w, 0, sizeof *w);
@@ -247,11 +257,18 @@ static void use_input(nook_play_window *w, const nook_input *input, double secon
     }
 }
 
+/* Without a window nobody types, but panels want to know how large the picture is. */
+static void look_nowhere(nook_play_window *w)
+{
+    nook_input rest, nothing = { .width = w->width, .height = w->height, .content_scale = 1.0 };
+    nook_live_input(w->live, &nothing, false, &rest);
+}
+
 static nook_result draw(nook_play_window *w)
 {
     nook_result result = fit_picture(w);
     nook_play_take_changes(w);
-    if (w->has_window)
+    if (w->has_window || w->captures)
         draw_panels(w);
     if (result == NOOK_OK)
         result = draw_scene(w);
@@ -268,8 +285,11 @@ nook_result nook_play_window_frame(nook_play_window *w, bool *out_goes_on)
     double seconds = take_time(w);
     if (w->has_window)
         use_input(w, &input, seconds);
+    else if (w->captures)
+        look_nowhere(w);
     bool hidden = w->has_window && (input.width == 0 || input.height == 0);
-    nook_result result = w->paused && !w->restart ? NOOK_OK : run_ticks(w, seconds);
+    bool stands_still = (w->paused && !w->restart) || nook_live_frozen(w->live);
+    nook_result result = stands_still ? NOOK_OK : run_ticks(w, seconds);
     if (result == NOOK_OK && !hidden)
         result = draw(w);
     nook_play_tell(w);

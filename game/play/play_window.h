@@ -26,8 +26,9 @@ typedef struct nook_play_window_desc {
     const char *settings;   /**< Technique and parameters; NULL: the level's. */
     const char *cache;      /**< Baked volumes, and the player's preferences. */
     const char *pictures;   /**< Folder of the pictures that the player takes. */
-    bool driven;            /**< Who calls drives it: neither window, replay nor pilot is needed. */
-    double frame_seconds;   /**< > 0: every frame takes this long. 0: what the clock says. */
+    const char *capture;  /**< Where every frame goes, see nook_live_capture; each lasts 1/30 s then. NULL: nowhere. */
+    bool driven;          /**< Who calls drives it: neither window, replay nor pilot is needed. */
+    double frame_seconds; /**< > 0: every frame takes this long. 0: what the clock says. */
 } nook_play_window_desc;
 
 /** How long frames took, newest at (next - 1). */
@@ -62,6 +63,7 @@ typedef struct nook_play_window {
     char trouble
         [1024]; /**< Yours to set: what is wrong with code that was to be loaded; stands on the screen. "": nothing. */
     nook_play_told told; /**< What the log and the title have said last. */
+    bool captures;       /**< Every frame goes into a file. */
     bool driven, has_window, paused, help, captured;
     bool quit;              /**< Asked for in the menu or by the window. */
     bool restart;           /**< Asked for in the menu: goes into the next tick. */
