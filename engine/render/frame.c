@@ -71,11 +71,14 @@ void nook_frame_finish_part(nook_renderer *renderer, const nook_frame *frame, no
 {
     assert(part.x <= renderer->width && part.width <= renderer->width - part.x && part.y <= renderer->height &&
            part.height <= renderer->height - part.y && (part.width == 0) == (part.height == 0));
-    if (view == NOOK_VIEW_LIT || view == NOOK_VIEW_LIGHT) {
-        nook_pass_lighting(renderer, visibility, part);
+    bool lights = view == NOOK_VIEW_LIT || view == NOOK_VIEW_LIGHT;
+    bool at_once = view == NOOK_VIEW_LIT && renderer->blended_count == 0;
+    if (lights)
+        nook_pass_lighting(renderer, frame, visibility, at_once, part);
+    if (lights && !at_once)
         nook_pass_blended(renderer, frame, part);
-    }
-    nook_pass_view(renderer, visibility, view, part);
+    if (!at_once)
+        nook_pass_view(renderer, visibility, view, part);
 }
 
 void nook_frame_finish(nook_renderer *renderer, const nook_frame *frame, nook_texture visibility, nook_view view)

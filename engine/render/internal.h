@@ -183,7 +183,7 @@ struct nook_renderer {
     uint32_t vertex_array;
     uint32_t empty_vertex_array; /* for full-screen triangles */
     nook_program shadow_program, shadow_masked_program, gbuffer_program, gbuffer_masked_program;
-    nook_program lighting_program, blended_program, view_program;
+    nook_program lighting_program, lighting_image_program, blended_program, view_program;
     draw_set visible, casters;
     grow_list blended; /* blended_draw */
     size_t blended_count;
@@ -250,7 +250,9 @@ void nook_pass_gbuffer(nook_renderer *renderer, const nook_frame *frame);
 /** Collects the blended primitives that are in view, farthest first. @return NOOK_E_MEMORY */
 nook_result nook_collect_blended(nook_renderer *renderer, const nook_frame *frame);
 /* part: all zero for the whole picture */
-void nook_pass_lighting(nook_renderer *renderer, nook_texture visibility, nook_rectangle part);
+/** @param to_image  also tone maps: the picture, when nothing blended comes over it. false: the light, for nook_pass_view */
+void nook_pass_lighting(nook_renderer *renderer, const nook_frame *frame, nook_texture visibility, bool to_image,
+                        nook_rectangle part);
 void nook_pass_blended(nook_renderer *renderer, const nook_frame *frame, nook_rectangle part);
 void nook_pass_view(nook_renderer *renderer, nook_texture visibility, nook_view view, nook_rectangle part);
 

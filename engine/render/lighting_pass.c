@@ -1,4 +1,7 @@
 #include "engine/render/internal.h"
+#include <stdio.h>
+
+enum { UNROLLED_POINTS = 8 /* beyond that the program is long and its light dim */, DEFINES_SIZE = 256 };
 
 /** What lighting and the views read: the G-buffer, the shadow and the visibility. */
 static void bind_inputs(nook_renderer *renderer, nook_texture visibility)
@@ -17,11 +20,43 @@ static void bind_inputs(nook_renderer *renderer, nook_texture visibility)
     nook_bind_texture(gpu, UNIT_VISIBILITY, visibility.id != 0 ? visibility : renderer->white);
 }
 
-void nook_pass_lighting(nook_renderer *renderer, nook_texture visibility, nook_rectangle part)
+/** Whether the lights' calls can be written out one by one. */
+static bool can_unroll(const nook_lights *lights)
 {
-    nook_raster_begin(renderer->gpu, renderer->targets.light_target, (raster_state){ .part = part });
+    bool can = lights->point_count <= UNROLLED_POINTS;
+    for (uint32_t i = 0; can && i < lights->point_count; i++) {
+        const double *d = lights->points[i].direction;
+        can = d[0] == 0.0 && d[1] == 0.0 && d[2] == 0.0;
+    }
+    return can;
+}
+
+/** The program of a frame's lights, compiled when a number of them comes for the first time. */
+static nook_program lighting_program(nook_renderer *renderer, const nook_lights *lights, bool to_image)
+{
+    char defines[DEFINES_SIZE];
+    nook_program program = to_image ? renderer->lighting_image_program : renderer->lighting_program;
+    if (!can_unroll(lights))
+        return program;
+    int length = snprintf(defines, sizeof defines, "%s#define EACH_POINT(f)", to_image ? "#define TO_IMAGE\n" : "");
+    for (uint32_t i = 0; i < lights->point_count; i++)
+        length += snprintf(defines + length, sizeof defines - (size_t)length, " f(%u);", i);
+    snprintf(defines + length, sizeof defines - (size_t)length, "\n");
+    nook_program unrolled;
+    nook_result result = nook_program_raster(renderer->gpu, "shaders/render/fullscreen.vert.glsl",
+                                             "shaders/render/lighting.frag.glsl", defines, &unrolled);
+    return result == NOOK_OK ? unrolled : program;
+}
+
+void nook_pass_lighting(nook_renderer *renderer, const nook_frame *frame, nook_texture visibility, bool to_image,
+                        nook_rectangle part)
+{
+    const render_targets *targets = &renderer->targets;
+    nook_program program = lighting_program(renderer, frame->lights, to_image);
+    nook_raster_begin(renderer->gpu, to_image ? targets->image_target : targets->light_target,
+                      (raster_state){ .part = part });
     bind_inputs(renderer, visibility);
-    nook_draw_fullscreen(renderer, renderer->lighting_program);
+    nook_draw_fullscreen(renderer, program);
     nook_raster_end(renderer->gpu);
 }
 

@@ -39,6 +39,7 @@ static nook_result create_programs(nook_renderer *r)
         { surface, "shaders/render/gbuffer.frag.glsl", masked, &r->gbuffer_masked_program },
         { surface, "shaders/render/blended.frag.glsl", "", &r->blended_program },
         { screen, "shaders/render/lighting.frag.glsl", "", &r->lighting_program },
+        { screen, "shaders/render/lighting.frag.glsl", "#define TO_IMAGE\n", &r->lighting_image_program },
         { screen, "shaders/render/view.frag.glsl", "", &r->view_program },
     };
     for (size_t i = 0; i < NOOK_COUNT(list); i++) {

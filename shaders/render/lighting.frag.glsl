@@ -1,10 +1,12 @@
 #version 450
-// Light of the G-buffer, or the sky where it is empty. Writes exposed radiance, RGBA16F.
+// Light of the G-buffer, or the sky where it is empty. Writes exposed radiance, RGBA16F; with TO_IMAGE defined what the screen
+// shows of it, RGBA8, when nothing blended comes over it.
 #include "render/frame.glsl"
 #include "render/shade.glsl"
 #include "render/gbuffer_read.glsl"
+#include "render/tone.glsl"
 
-layout(location = 0) out vec4 light;
+layout(location = 0) out vec4 result;
 
 void main()
 {
@@ -19,5 +21,9 @@ void main()
         bool unlit = texelFetch(material_texture, pixel, 0).a > 0.5;
         radiance = texelFetch(emissive_texture, pixel, 0).rgb + (unlit ? s.base_colour : shade(s));
     }
-    light = vec4(min(radiance, vec3(65000.0)), 1.0); // the largest half float is 65504
+#ifdef TO_IMAGE
+    result = vec4(srgb_encode(tone_map(radiance)), 1.0);
+#else
+    result = vec4(min(radiance, vec3(65000.0)), 1.0); // the largest half float is 65504
+#endif
 }

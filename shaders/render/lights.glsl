@@ -14,7 +14,17 @@ layout(std140, binding = 1) uniform Lights {
     PointLight points[64];
 } lights;
 
-// Direction to a light and its irradiance on a surface that faces it (KHR_lights_punctual).
+// How much of a spot's light goes there; 1 when it is none.
+float spot_factor(PointLight light, vec3 to_light)
+{
+    if (light.direction_outer.xyz == vec3(0.0))
+        return 1.0;
+    float width = max(light.colour_inner.w - light.direction_outer.w, 1e-3);
+    float spot = clamp((dot(-to_light, light.direction_outer.xyz) - light.direction_outer.w) / width, 0.0, 1.0);
+    return spot * spot;
+}
+
+// Direction to a light and its irradiance on a surface that faces it (KHR_lights_punctual), if it is no spot.
 vec3 point_light(PointLight light, vec3 relative, out vec3 to_light)
 {
     vec3 offset = light.position_range.xyz - relative;
@@ -23,11 +33,5 @@ vec3 point_light(PointLight light, vec3 relative, out vec3 to_light)
     float range = light.position_range.w;
     float ratio = range > 0.0 ? square / (range * range) : 0.0;
     float window = clamp(1.0 - ratio * ratio, 0.0, 1.0);
-    float spot = 1.0;
-    if (light.direction_outer.xyz != vec3(0.0)) {
-        float width = max(light.colour_inner.w - light.direction_outer.w, 1e-3);
-        spot = clamp((dot(-to_light, light.direction_outer.xyz) - light.direction_outer.w) / width, 0.0, 1.0);
-        spot *= spot;
-    }
-    return light.colour_inner.rgb * (window * spot / square);
+    return light.colour_inner.rgb * (window / square);
 }

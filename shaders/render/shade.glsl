@@ -73,6 +73,32 @@ vec3 ambient_light(Lit s, vec3 view)
                specular_visibility(s.visibility, s.roughness, n_v);
 }
 
+vec3 light_from(PointLight light, Lit s, vec3 view)
+{
+    vec3 to_light, irradiance = point_light(light, s.relative, to_light);
+#ifndef EACH_POINT
+    irradiance *= spot_factor(light, to_light);
+#endif
+    if (irradiance == vec3(0.0))
+        return vec3(0.0);
+    return irradiance * reflect_light(s, view, to_light) * terminator(s, to_light);
+}
+
+// EACH_POINT(f), where it is defined, calls f(0); f(1); ... for lights of a known number without a spot: software GL reads what
+// stands at a constant place once for all pixels, and else for each.
+vec3 light_from_points(Lit s, vec3 view)
+{
+    vec3 sum = vec3(0.0);
+#ifdef EACH_POINT
+#define ADD(i) sum += light_from(lights.points[i], s, view)
+    EACH_POINT(ADD)
+#else
+    for (uint i = 0u; i < lights.point_count.x; i++)
+        sum += light_from(lights.points[i], s, view);
+#endif
+    return sum;
+}
+
 vec3 shade(Lit s)
 {
     s.roughness = max(s.roughness, 0.045); // below this the highlight of a point light is under a pixel and flickers
@@ -82,10 +108,5 @@ vec3 shade(Lit s)
     vec3 sun = reflect_light(s, view, to_light) * lights.sun_colour.rgb;
     if (sun != vec3(0.0))
         sum += sun * sun_arrives(s);
-    for (uint i = 0u; i < lights.point_count.x; i++) {
-        vec3 irradiance = point_light(lights.points[i], s.relative, to_light);
-        if (irradiance != vec3(0.0))
-            sum += irradiance * reflect_light(s, view, to_light) * terminator(s, to_light);
-    }
-    return sum;
+    return sum + light_from_points(s, view);
 }

@@ -1,4 +1,4 @@
-// The filtered shadow of the sun. Needs frame.glsl. Binding: texture 5, depth along the sun's direction, unfiltered.
+// The filtered shadow of the sun. Needs frame.glsl, lights.glsl. Binding: texture 5, depth along the sun's direction, unfiltered.
 #pragma once
 layout(binding = 5) uniform sampler2D shadow_map;
 
@@ -69,6 +69,7 @@ Gathered filter_shadow(Receiver receiver)
 
 // Fraction of the sun that reaches a point. Flat receivers do not shadow themselves at any slope, because each texel is
 // compared with the receiver's plane at that texel; what is left of the bias covers rounding and curved surfaces.
+// There must be a sun.
 float sun_shadow(vec3 relative, vec3 geometric)
 {
     mat3 rows = transpose(mat3(frame.shadow_from_relative));
@@ -95,20 +96,31 @@ float sun_shadow(vec3 relative, vec3 geometric)
     receiver.same = 0.01 * receiver.bias;
     receiver.reach = texel + length(receiver.slope);
 
-    Gathered sum = filter_shadow(receiver);
     // Where the surface ends in the map it may meet a blocker, as a wall meets its ceiling, and under a texel from there
     // the bias takes the one for the other. Unless the map shows the surface itself, such an edge takes its light from
     // inside, where the whole filter lies on the surface: about two texels from an edge that halves the filter.
-    vec2 inward = sum.inward * INWARD;
-    float far = length(inward), doubt = 1.0 - smoothstep(0.1, 0.4, sum.seen / max(sum.known, 0.001));
-    if (far > 0.05 && doubt > 0.0) {
+    Gathered sum;
+    float doubt = 0.0;
+    // A loop, because a software driver leaves a loop when no pixel wants more, but runs the inside of an if for all. How
+    // often at the most is a number that compilers do not know, or they would unroll it.
+    const int turns = 2 * int(lights.sun_direction.w);
+    for (int turn = 0; turn < turns; turn++) {
+        Gathered found = filter_shadow(receiver);
+        if (turn > 0) {
+            if (found.known > 0.5 * sum.known) {
+                sum.lit = mix(sum.lit, found.lit, doubt);
+                sum.known = mix(sum.known, found.known, doubt);
+            }
+            break;
+        }
+        sum = found;
+        vec2 inward = sum.inward * INWARD;
+        float far = length(inward);
+        doubt = 1.0 - smoothstep(0.1, 0.4, sum.seen / max(sum.known, 0.001));
+        if (!(far > 0.05 && doubt > 0.0))
+            break;
         inward *= min(1.0, INWARD_MAX / far);
         receiver.position += vec3(inward, dot(receiver.slope, inward));
-        Gathered inside = filter_shadow(receiver);
-        if (inside.known > 0.5 * sum.known) {
-            sum.lit = mix(sum.lit, inside.lit, doubt);
-            sum.known = mix(sum.known, inside.known, doubt);
-        }
     }
     return sum.known > 0.001 ? sum.lit / sum.known : 1.0;
 }

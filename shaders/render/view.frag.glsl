@@ -3,6 +3,7 @@
 #include "render/frame.glsl"
 #include "render/shade.glsl"
 #include "render/gbuffer_read.glsl"
+#include "render/tone.glsl"
 
 layout(binding = 13) uniform sampler2D light_texture;
 layout(location = 0) uniform int view; // nook_view
@@ -12,17 +13,6 @@ layout(location = 0) out vec4 image;   // RGBA8
 const int VIEW_LIT = 0, VIEW_BASE_COLOUR = 1, VIEW_NORMAL = 2, VIEW_GEOMETRIC_NORMAL = 3, VIEW_DEPTH = 4,
           VIEW_METALLIC = 5, VIEW_ROUGHNESS = 6, VIEW_EMISSIVE = 7, VIEW_VISIBILITY = 8, VIEW_SHADOW = 9,
           VIEW_OCCLUSION_MAP = 10, VIEW_LIGHT = 11, VIEW_SHADOW_MAP = 12;
-
-// Narkowicz, "ACES Filmic Tone Mapping Curve", 2015: rises everywhere, 0 stays 0.
-vec3 tone_map(vec3 c)
-{
-    return clamp(c * (2.51 * c + 0.03) / (c * (2.43 * c + 0.59) + 0.14), 0.0, 1.0);
-}
-
-vec3 srgb_encode(vec3 c)
-{
-    return mix(c * 12.92, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, greaterThan(c, vec3(0.0031308)));
-}
 
 // 16 doublings from 1/1024 to 64: what tone mapping leaves of bright and dark cannot be told apart in the picture.
 vec3 light_view(vec3 radiance)
