@@ -1,12 +1,15 @@
 #include "game/stage.h"
 #include "engine/core/log.h"
 #include "game/techniques.h"
+#include "game/volumes.h"
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
 /* G-buffer, light, AO and what is read back, bytes per pixel, rounded up; on software GL all of it is main memory. */
 static const double bytes_per_pixel = 160.0;
+
+enum { OCCLUDERS_SPARE = 256 }; /* for a scene that is exchanged for one with more bodies */
 
 static const uint32_t window_max[2] = { 1600, 900 };
 
@@ -87,11 +90,12 @@ static uint32_t count_occluders(const nook_scene *scene)
 
 static nook_result open_ao(nook_stage *stage)
 {
+    stage->occluder_max = count_occluders(stage->scene) + OCCLUDERS_SPARE;
     const nook_ao_desc desc = { .version = NOOK_AO_VERSION,
                                 .gpu = stage->gpu,
                                 .width = stage->width,
                                 .height = stage->height,
-                                .max_occluders = count_occluders(stage->scene),
+                                .max_occluders = stage->occluder_max,
                                 .progress = pass_progress_on,
                                 .progress_user = stage };
     nook_result result = nook_ao_create(&desc, &stage->ao);
@@ -127,6 +131,7 @@ nook_result nook_stage_fill(nook_stage *stage, const nook_game_world_desc *desc)
     if (result == NOOK_OK)
         result = nook_game_world_bake(stage->world, stage->ao, desc);
     stage->filled = result == NOOK_OK;
+    stage->volumes = *desc;
     if (result != NOOK_OK || stage->renderer)
         return result;
     stage->lights = nook_lights_from_scene(stage->scene);
@@ -138,6 +143,53 @@ nook_result nook_stage_renew(nook_stage *stage)
 {
     nook_ao_set_progress(stage->ao, pass_progress_on, stage);
     return nook_game_world_renew(stage->world);
+}
+
+nook_result nook_stage_scene_upload(nook_stage *stage, nook_scene *scene, nook_scene_volumes *baked,
+                                    nook_stage_scene *out)
+{
+    nook_stage_scene made = { 0 };
+    *out = made;
+    nook_result result = NOOK_OK;
+    if (scene->triangle_count == 0)
+        result = nook_fail(NOOK_E_FORMAT, "%s: holds no triangles, so there is nothing to draw", scene->path);
+    else if (baked->occluder_count > stage->occluder_max)
+        result = nook_fail(NOOK_E_RANGE, "%s: %u bodies, there is room for %u; start again to see them", scene->path,
+                           baked->occluder_count, stage->occluder_max);
+    if (result == NOOK_OK)
+        result = nook_game_world_create(scene, &made.world);
+    if (result == NOOK_OK)
+        result = nook_game_world_take_volumes(made.world, stage->ao, baked);
+    if (result == NOOK_OK)
+        result = nook_render_scene_create(stage->gpu, scene, &made.render_scene);
+    nook_volumes_free(baked);
+    if (result != NOOK_OK) {
+        nook_stage_scene_destroy(&made);
+        return result;
+    }
+    made.scene = scene;
+    *out = made;
+    return NOOK_OK;
+}
+
+nook_stage_scene nook_stage_exchange_scene(nook_stage *stage, const nook_stage_scene *scene)
+{
+    nook_stage_scene before = { stage->scene, stage->world, stage->render_scene };
+    float exposure = stage->lights.exposure;
+    stage->scene = scene->scene;
+    stage->world = scene->world;
+    stage->render_scene = scene->render_scene;
+    stage->lights = nook_lights_from_scene(stage->scene);
+    stage->lights.exposure = exposure;
+    return before;
+}
+
+void nook_stage_scene_destroy(nook_stage_scene *scene)
+{
+    nook_render_scene_destroy(scene->render_scene);
+    nook_game_world_destroy(scene->world);
+    nook_scene_destroy(scene->scene);
+    *scene = (nook_stage_scene){ 0 };
 }
 
 void nook_stage_close(nook_stage *stage)

@@ -32,9 +32,11 @@ typedef struct nook_stage {
     nook_frame frame; /**< The last one begun. */
     bool shows;       /**< There is a window, and it is wanted. */
     bool filled;
-    bool stop_asked;         /**< Esc or the close button while nook_stage_show looked. */
-    uint32_t frame_index;    /**< Yours to set: seeds the noise of nook_stage_occlude. */
-    nook_progress *progress; /**< Yours to set: told how far a long record is. NULL: nobody. */
+    nook_game_world_desc volumes; /**< As it was filled; its text is that of who filled it. */
+    uint32_t occluder_max;        /**< Bodies that the AO has room for. */
+    bool stop_asked;              /**< Esc or the close button while nook_stage_show looked. */
+    uint32_t frame_index;         /**< Yours to set: seeds the noise of nook_stage_occlude. */
+    nook_progress *progress;      /**< Yours to set: told how far a long record is. NULL: nobody. */
 } nook_stage;
 
 /**
@@ -56,6 +58,24 @@ nook_result nook_stage_fill(nook_stage *stage, const nook_game_world_desc *desc)
  * nook_ao_replace_technique. @return as nook_world_replace_system
  */
 nook_result nook_stage_renew(nook_stage *stage);
+
+/** What is seen and what darkens it: what a stage can exchange while it runs. */
+typedef struct nook_stage_scene {
+    nook_scene *scene;
+    nook_game_world *world; /**< Of the scene, with its volumes in the stage's AO. */
+    nook_render_scene *render_scene;
+} nook_stage_scene;
+
+/**
+ * Uploads a scene whose volumes were baked elsewhere, beside the one that is shown; the stage stays as it is.
+ * @param scene  stays the caller's on failure @param baked of the scene; emptied
+ * @return NOOK_E_RANGE more bodies than the stage has room for; NOOK_E_FORMAT nothing to draw; NOOK_E_MEMORY, NOOK_E_DEVICE; *out is zero then
+ */
+nook_result nook_stage_scene_upload(nook_stage *stage, nook_scene *scene, struct nook_scene_volumes *baked,
+                                    nook_stage_scene *out);
+/** Shows that one from the next frame on; the exposure stays, the lights are its own. What was shown before is the caller's. */
+nook_stage_scene nook_stage_exchange_scene(nook_stage *stage, const nook_stage_scene *scene);
+void nook_stage_scene_destroy(nook_stage_scene *scene); /**< With its volumes in the AO; zeroed ones are allowed. */
 
 void nook_stage_close(nook_stage *stage); /**< Zeroed stages are allowed; becomes zero. */
 

@@ -180,14 +180,17 @@ nook_result nook_game_world_create(const nook_scene *scene, nook_game_world **ou
 
 nook_result nook_game_world_bake(nook_game_world *world, nook_ao *ao, const nook_game_world_desc *desc)
 {
-    assert(!world->ao);
     nook_scene_volumes baked = { 0 };
     nook_result result = bake(world->scene, desc, &baked);
-    if (result != NOOK_OK)
-        return result;
+    return result == NOOK_OK ? nook_game_world_take_volumes(world, ao, &baked) : result;
+}
+
+nook_result nook_game_world_take_volumes(nook_game_world *world, nook_ao *ao, nook_scene_volumes *baked)
+{
+    assert(!world->ao);
     world->ao = ao;
-    result = fill(world, &baked);
-    nook_volumes_free(&baked);
+    nook_result result = fill(world, baked);
+    nook_volumes_free(baked);
     return result;
 }
 

@@ -11,6 +11,7 @@
 #include <stdbool.h>
 
 typedef struct nook_game_world nook_game_world;
+struct nook_scene_volumes; /* game/volumes.h */
 
 typedef struct nook_game_world_desc {
     uint32_t resolution; /**< Of volumes, see game/volumes.h; 0: the default. */
@@ -44,6 +45,11 @@ nook_result nook_game_world_create(const nook_scene *scene, nook_game_world **ou
  * @return why not; destroy the world then
  */
 nook_result nook_game_world_bake(nook_game_world *world, nook_ao *ao, const nook_game_world_desc *desc);
+/**
+ * The same with volumes that were baked elsewhere, of the same scene; empties them. Takes as long as the uploads.
+ * @return as nook_game_world_bake
+ */
+nook_result nook_game_world_take_volumes(nook_game_world *world, nook_ao *ao, struct nook_scene_volumes *baked);
 /** NULL is allowed. Takes its volumes and triangles out of the AO that they were baked for. */
 void nook_game_world_destroy(nook_game_world *world);
 

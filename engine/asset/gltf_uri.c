@@ -178,6 +178,8 @@ static nook_result read_beside(const nook_gltf *gltf, const char *name, nook_glt
         return refuse(NOOK_E_FORMAT, out_reason, "its path is too long");
     memcpy(path, gltf->path, folder);
     memcpy(path + folder, name, strlen(name) + 1);
+    if (!nook_scene_add_file(gltf->scene, path))
+        return refuse(NOOK_E_MEMORY, out_reason, "does not fit into memory");
     /* Looked at before it is opened: opening a device can already do something. */
     if (stat(path, &info) != 0 || access(path, R_OK) != 0)
         return refuse(NOOK_E_NOT_FOUND, out_reason, "its file '%.*s' cannot be read: %s", SHOWN, name, strerror(errno));

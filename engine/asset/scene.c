@@ -51,6 +51,23 @@ void nook_scene_warn(nook_scene *scene, const char *format, ...)
         scene->warnings[scene->warning_count++] = copy;
 }
 
+bool nook_scene_add_file(nook_scene *scene, const char *path)
+{
+    for (uint32_t i = 0; i < scene->file_count; i++)
+        if (strcmp(scene->files[i], path) == 0)
+            return true;
+    char *copy = nook_scene_copy_string(path);
+    char **files = copy ? realloc(scene->files, (scene->file_count + 1) * sizeof *files) : NULL;
+    if (!files) {
+        free(copy);
+        nook_fail(NOOK_E_MEMORY, "%s: no memory for the name of a file", path);
+        return false;
+    }
+    scene->files = files;
+    scene->files[scene->file_count++] = copy;
+    return true;
+}
+
 void nook_scene_default_material(nook_material *out_material)
 {
     *out_material = (nook_material){
@@ -183,9 +200,11 @@ void nook_scene_destroy(nook_scene *scene)
         free(scene->cameras[i].name);
     for (uint32_t i = 0; i < scene->warning_count; i++)
         free(scene->warnings[i]);
+    for (uint32_t i = 0; i < scene->file_count; i++)
+        free(scene->files[i]);
     void *arrays[] = { scene->vertices,  scene->indices,  scene->primitives, scene->meshes,
                        scene->materials, scene->images,   scene->nodes,      scene->cameras,
-                       scene->lights,    scene->warnings, scene->path };
+                       scene->lights,    scene->warnings, scene->files,      scene->path };
     for (size_t i = 0; i < NOOK_COUNT(arrays); i++)
         free(arrays[i]);
     free(scene);

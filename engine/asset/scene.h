@@ -122,6 +122,9 @@ typedef struct nook_scene {
     double bounds_min[3], bounds_max[3]; /**< World space of all drawn vertices; min > max when nothing is drawn. */
     char **warnings;
     uint32_t warning_count;
+    char *
+        *files; /**< What it was read from: itself, buffers and images, those of joined scenes; as they were opened. */
+    uint32_t file_count;
 } nook_scene;
 
 typedef struct nook_scene_options {

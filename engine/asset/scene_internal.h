@@ -6,6 +6,9 @@
 /** Logs a warning and keeps its text in the scene. From the 100th on they are neither kept nor logged. */
 void nook_scene_warn(nook_scene *scene, const char *format, ...) NOOK_PRINTF(2, 3);
 
+/** Remembers a file that the scene is made of, once; also one that could not be read. @return false, logged: no memory */
+bool nook_scene_add_file(nook_scene *scene, const char *path);
+
 /** A copy; "" for NULL. @return NULL, logged, when out of memory */
 char *nook_scene_copy_string(const char *text);
 

@@ -153,6 +153,14 @@ static nook_result append_nodes(nook_scene *to, const nook_scene *from, const of
     return NOOK_OK;
 }
 
+static nook_result append_files(nook_scene *to, const nook_scene *from)
+{
+    for (uint32_t i = 0; i < from->file_count; i++)
+        if (!nook_scene_add_file(to, from->files[i]))
+            return NOOK_E_MEMORY;
+    return NOOK_OK;
+}
+
 static nook_result append_part(nook_scene *to, const nook_scene_part *part, uint32_t *out_first_mesh)
 {
     const offsets at = { .primitive = to->primitive_count,
@@ -168,6 +176,8 @@ static nook_result append_part(nook_scene *to, const nook_scene_part *part, uint
     nook_result result = append_meshes(to, part->scene, &at);
     if (result == NOOK_OK)
         result = append_materials(to, part->scene, &at);
+    if (result == NOOK_OK)
+        result = append_files(to, part->scene);
     return result == NOOK_OK && part->nodes ? append_nodes(to, part->scene, &at) : result;
 }
 

@@ -14,6 +14,17 @@ static struct {
     void *user;
 } log_state = { write_to_stderr, NULL };
 
+static _Thread_local struct {
+    char *text;
+    size_t capacity;
+} kept;
+
+void nook_log_keep_errors(char *text, size_t capacity)
+{
+    kept.text = text;
+    kept.capacity = capacity;
+}
+
 void nook_log_set_sink(nook_log_sink sink, void *user)
 {
     log_state.sink = sink ? sink : write_to_stderr;
@@ -27,6 +38,8 @@ void nook_log_at(const char *file, int line, nook_log_level level, const char *f
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
+    if (kept.text && level == NOOK_LOG_ERROR)
+        snprintf(kept.text, kept.capacity, "%s", text);
     log_state.sink(log_state.user, level, file, line, text);
 }
 

@@ -17,6 +17,12 @@ typedef enum nook_log_level {
 typedef void (*nook_log_sink)(void *user, nook_log_level level, const char *file, int line, const char *text);
 
 /**
+ * What this thread logs as an error is written to `text` as well, cut to capacity, each in place of the one before: for those who
+ * must show why a call has failed. NULL ends it. A setting of the thread, which lasts no longer than it.
+ */
+void nook_log_keep_errors(char *text, size_t capacity);
+
+/**
  * Sends all further lines to `sink`; NULL restores the default, which writes "nook: text" to standard error.
  * The one process-wide setting of engine/core. Set it before threads start; sinks must be thread-safe.
  */

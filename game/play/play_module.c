@@ -58,7 +58,10 @@ static nook_result frame(void *state, const nook_module_news *news, bool *out_ru
 
 static void suspend(void *state)
 {
-    nook_live_suspend(((nook_play_window *)state)->live);
+    nook_play_window *window = state;
+    nook_live_suspend(window->live);
+    if (window->scenes)
+        nook_scene_reload_wait(window->scenes);
 }
 
 static nook_result resume(void *state, const nook_module_news *news)

@@ -1,4 +1,4 @@
-/* Files that are saved while one plays: shaders, settings. What is wrong with them stands on the screen; what ran goes on. */
+/* Files that are saved while one plays: shaders, level and models, settings. What is wrong with them stands on the screen; what ran goes on. */
 #include "game/play/play_reload.h"
 #include "engine/core/log.h"
 #include <string.h>
@@ -7,6 +7,8 @@ void nook_play_watch(nook_play_window *w)
 {
     if (nook_shader_reload_create(w->stage.gpu, &w->shaders) != NOOK_OK)
         nook_log_warning("play: shaders that are saved are not seen before the next start");
+    if (nook_scene_reload_create(&w->stage, w->play.level->path, &w->scenes) != NOOK_OK)
+        nook_log_warning("play: a level or model that is saved is not seen before the next start");
     if (*w->settings_path && nook_settings_reload_create(w->settings_path, &w->settings_watch) != NOOK_OK)
         nook_log_warning("play: %s is not read again before the next start", w->settings_path);
 }
@@ -14,8 +16,10 @@ void nook_play_watch(nook_play_window *w)
 void nook_play_unwatch(nook_play_window *w)
 {
     nook_settings_reload_destroy(w->settings_watch);
+    nook_scene_reload_destroy(w->scenes);
     nook_shader_reload_destroy(w->shaders);
     w->settings_watch = NULL;
+    w->scenes = NULL;
     w->shaders = NULL;
 }
 
@@ -36,6 +40,15 @@ static void use_settings(nook_play_window *w, const nook_settings_file *file)
     nook_log_info("play: settings taken over: %s", text);
 }
 
+static void take_scene(nook_play_window *w)
+{
+    if (nook_scene_reload_poll(w->scenes)) {
+        nook_live_suspend(w->live); /* its truth reads the triangles of the old one */
+        nook_scene_reload_swap(w->scenes, &w->play);
+    }
+    nook_live_message(w->live, "scene", nook_scene_reload_status_of(w->scenes)->error);
+}
+
 void nook_play_take_changes(nook_play_window *w)
 {
     nook_settings_file settings;
@@ -45,8 +58,11 @@ void nook_play_take_changes(nook_play_window *w)
         nook_live_message(w->live, "settings", nook_settings_reload_error(w->settings_watch));
     }
     if (w->shaders) {
-        nook_shader_reload_poll(w->shaders);
+        if (nook_shader_reload_poll(w->shaders))
+            nook_live_suspend(w->live); /* what it has frozen was drawn by the old ones */
         nook_live_message(w->live, "shaders", nook_shader_reload_status(w->shaders)->error);
     }
+    if (w->scenes)
+        take_scene(w);
     nook_live_message(w->live, "code", w->trouble);
 }

@@ -10,6 +10,7 @@
  */
 #pragma once
 #include "game/live/live.h"
+#include "game/live/scene_reload.h"
 #include "game/live/settings_reload.h"
 #include "game/live/shader_reload.h"
 #include "game/play/controls.h"
@@ -51,6 +52,7 @@ typedef struct nook_play_window {
     nook_stage stage;
     nook_live *live;                      /**< Views, panels and messages over the picture. */
     nook_shader_reload *shaders;          /**< NULL: they cannot be watched, or nobody looks. */
+    nook_scene_reload *scenes;            /**< The same of level, models and textures. */
     nook_settings_reload *settings_watch; /**< The same of the settings file. */
     nook_settings_file settings;
     nook_controls controls;

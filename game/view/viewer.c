@@ -2,6 +2,7 @@
 #include "engine/core/clock.h"
 #include "engine/core/log.h"
 #include "game/compare/camera.h"
+#include "game/live/scene_reload.h"
 #include "game/live/shader_reload.h"
 #include "game/view/orbit.h"
 #include <math.h>
@@ -20,6 +21,7 @@ typedef struct viewer {
     const char *scene_name;
     const nook_compare_choice *choice;
     nook_shader_reload *shaders; /* NULL: they cannot be watched */
+    nook_scene_reload *scenes;   /* the same of the scene's files */
     nook_orbit orbit;
     double diagonal, scale;             /* metres; ao.scale when nothing moves */
     const nook_ao_technique *technique; /* NULL: none */
@@ -212,16 +214,17 @@ static nook_result redraw(viewer *v)
     return result;
 }
 
-/* What shaders that were saved are wrong about; "" when nothing. */
-static const char *shader_error(const viewer *v)
+/* What is wrong with shaders or a scene that were saved; "" when nothing. */
+static const char *reload_error(const viewer *v)
 {
-    return v->shaders ? nook_shader_reload_status(v->shaders)->error : "";
+    const char *shaders = v->shaders ? nook_shader_reload_status(v->shaders)->error : "";
+    return shaders[0] || !v->scenes ? shaders : nook_scene_reload_status_of(v->scenes)->error;
 }
 
 static void show_title(const viewer *v)
 {
     char title[512], cost[64] = "";
-    const char *error = shader_error(v), *keys = "0-9 technique, V view, C camera, Esc quits";
+    const char *error = reload_error(v), *keys = "0-9 technique, V view, C camera, Esc quits";
     if (v->occluded)
         snprintf(cost, sizeof cost, " %.1f ms", v->ms);
     snprintf(title, sizeof title, "Nook - %s - %d %s%s - %s - %.*s", v->scene_name, v->key,
@@ -245,6 +248,21 @@ static nook_result draw(viewer *v, const nook_input *input)
     return NOOK_OK;
 }
 
+/* Takes what was saved of shaders and of the scene. */
+static void reload(viewer *v)
+{
+    if (v->shaders && nook_shader_reload_poll(v->shaders))
+        v->changed = true;
+    if (!v->scenes)
+        return;
+    uint32_t failures = nook_scene_reload_status_of(v->scenes)->failures;
+    if (nook_scene_reload_poll(v->scenes)) {
+        nook_scene_reload_swap(v->scenes, NULL);
+        v->changed = true;
+    }
+    v->changed = v->changed || nook_scene_reload_status_of(v->scenes)->failures != failures;
+}
+
 static void rest(void)
 {
     const struct timespec pause = { 0, 8 * 1000 * 1000 };
@@ -260,8 +278,7 @@ static nook_result loop(viewer *v)
             return NOOK_OK;
         read_keys(v, &input);
         move(v, &input);
-        if (v->shaders && nook_shader_reload_poll(v->shaders))
-            v->changed = true;
+        reload(v);
         nook_result result = NOOK_OK;
         bool visible = input.width > 0 && input.height > 0;
         if (visible && (input.width != v->stage->width || input.height != v->stage->height)) {
@@ -297,9 +314,12 @@ nook_result nook_view_run(nook_stage *stage, const nook_camera *camera, const no
         return result;
     if (nook_shader_reload_create(stage->gpu, &v.shaders) != NOOK_OK)
         nook_log_warning("view: shaders that change are not seen until the next start");
+    if (nook_scene_reload_create(stage, NULL, &v.scenes) != NOOK_OK)
+        nook_log_warning("view: a scene that changes is not seen until the next start");
     choose_technique(&v, 1);
     nook_context_show(stage->context);
     result = loop(&v);
+    nook_scene_reload_destroy(v.scenes);
     nook_shader_reload_destroy(v.shaders);
     nook_ao_set_param(stage->ao, "reference.rays", rays);
     nook_ao_set_param(stage->ao, "ao.scale", v.scale);

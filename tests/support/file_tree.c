@@ -53,12 +53,17 @@ static void write_file(const char *path, const char *text)
     assert_int_equal(fclose(file), 0);
 }
 
+static void make_folder_of(const char *path)
+{
+    char folder[PATH_CAPACITY];
+    snprintf(folder, sizeof folder, "%.*s", (int)(nook_path_name(path) - path - 1), path);
+    assert_int_equal(nook_directory_make(folder), NOOK_OK);
+}
+
 void file_tree_write(const file_tree *tree, const char *path, const char *text)
 {
-    char full[PATH_CAPACITY], folder[PATH_CAPACITY];
-    file_tree_path(tree, path, full, sizeof full);
-    snprintf(folder, sizeof folder, "%.*s", (int)(nook_path_name(full) - full - 1), full);
-    assert_int_equal(nook_directory_make(folder), NOOK_OK);
+    char full[PATH_CAPACITY];
+    make_folder_of(file_tree_path(tree, path, full, sizeof full));
     write_file(full, text);
 }
 
@@ -100,7 +105,8 @@ static void copy_all(const char *from, const char *to)
 void file_tree_copy(const file_tree *tree, const char *root, const char *path)
 {
     char from[PATH_CAPACITY], to[PATH_CAPACITY];
-    copy_all(nook_path_join(from, sizeof from, root, path), file_tree_path(tree, path, to, sizeof to));
+    make_folder_of(file_tree_path(tree, path, to, sizeof to));
+    copy_all(nook_path_join(from, sizeof from, root, path), to);
 }
 
 void file_tree_edit(const file_tree *tree, const char *path, const char *before, const char *after)

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Shaders edited while the window is open: a copy of them, never those of the sources.
+# Shaders and scenes edited while the window is open: copies of them, never those of the sources.
 cd "${NOOK_ROOT:-$PWD}" || exit 1
 source tests/support/shell.sh
 source tests/support/window.sh
@@ -24,17 +24,35 @@ test_saved_shader_is_seen_broken_one_is_in_the_title_and_the_mended_one_is_seen(
     grep -q 'shaders: 1 program reloaded' "$tmp/log"
 }
 
-# Only a picture made while something moves is traced at lower resolution, so that is when this shader is first built.
-test_occlusion_whose_shader_never_was_good_is_left_out_until_it_is_mended() {
+# What is drawn while something moves is traced at lower resolution, by shaders that are first built then.
+test_occlusion_whose_shaders_never_were_good_is_left_out_until_they_are_mended() {
     copy_root
     in_window '
-        shader=$root/shaders/ao/pick.comp.glsl
+        shader=$root/shaders/ao/frame.glsl
         wait_for 30 title_has "1 volume .* ms"
         echo "no_such_name;" >>"$shader"
-        hold w; wait_for 30 title_has "1 volume.*shaders/ao/pick.comp.glsl:"
+        wait_for 30 title_has "1 volume.*shaders/ao/frame.glsl:"
+        hold w
         sed -i "/no_such_name/d" "$shader"
-        wait_for 30 title_has "1 volume.*0-9 technique"
+        wait_for 30 title_has "1 volume .* ms.*0-9 technique"
         hold w; wait_for 30 title_has "1 volume .* ms.*0-9 technique"'
+}
+
+test_saved_scene_is_seen_and_a_broken_one_is_in_the_title() {
+    mkdir -p "$tmp/scene"
+    cp "$crate" "$tmp/scene/crate.gltf"
+    export crate=$tmp/scene/crate.gltf
+    in_window '
+        press 0; wait_for 30 title_has "0 none"
+        import -window "$window" "$tmp/before.png"
+        differs() { import -window "$window" "$tmp/after.png"; ! cmp -s "$tmp/before.png" "$tmp/after.png"; }
+        sed -i "0,/0\\.3,/s//-0.9,/" "$crate"
+        wait_for 60 differs
+        sed -i "s/\"asset\"/\"asset/" "$crate"
+        wait_for 60 title_has "crate.gltf: "
+        sed -i "s/\"asset/\"asset\"/" "$crate"
+        wait_for 60 title_has "0-9 technique"'
+    [ "$(grep -c 'scene: .*crate.gltf reloaded' "$tmp/log")" -eq 2 ]
 }
 
 run_tests
