@@ -14,6 +14,37 @@ static void label_around(nook_overlay *overlay, double x, double y, nook_overlay
     nook_overlay_label(overlay, (double[]){ x - 0.5 * size[0], y - 0.5 * size[1] }, colour, text);
 }
 
+/* The longest start of a text, cut at a space, that is no wider than `width`; the whole first word where none is. @return its bytes */
+static size_t line_length(nook_overlay *overlay, const char *text, double width)
+{
+    char line[512];
+    size_t best = 0;
+    for (size_t at = 0; at <= strlen(text); at++) {
+        double size[2];
+        if (text[at] != ' ' && text[at] != '\0')
+            continue;
+        snprintf(line, sizeof line, "%.*s", (int)at, text);
+        nook_overlay_label_size(overlay, line, size);
+        if (best > 0 && size[0] > width)
+            break;
+        best = at;
+    }
+    return best;
+}
+
+/* Lines whose middles lie on x, the first at y: no wider than the picture. */
+static void label_lines(nook_overlay *overlay, double x, double y, nook_overlay_colour colour, const char *text)
+{
+    double step = 1.6 * nook_overlay_letter_height(overlay);
+    for (; *text; y += step) {
+        char line[512];
+        size_t length = line_length(overlay, text, 1.8 * x);
+        snprintf(line, sizeof line, "%.*s", (int)length, text);
+        label_around(overlay, x, y, colour, line);
+        text += length + (text[length] == ' ');
+    }
+}
+
 static void draw_cross(nook_overlay *overlay, double x, double y, bool something)
 {
     double arm = (something ? 0.6 : 0.35) * nook_overlay_letter_height(overlay);
@@ -66,10 +97,10 @@ void nook_play_draw_hud(nook_play_window *window, nook_overlay *overlay)
     draw_hint(overlay, &view, middle[0], middle[1] + 3.0 * line);
     draw_state(window, overlay, &view);
     if (*view.message)
-        label_around(overlay, middle[0], window->height - 2.5 * line,
-                     view.status == NOOK_SESSION_PLAYING ? white : gold, view.message);
+        label_lines(overlay, middle[0], window->height - 4.5 * line, view.status == NOOK_SESSION_PLAYING ? white : gold,
+                    view.message);
     if (view.status != NOOK_SESSION_PLAYING)
-        label_around(overlay, middle[0], window->height - 4.5 * line, white, "Backspace: from the start again");
+        label_around(overlay, middle[0], window->height - 6.5 * line, white, "Backspace: from the start again");
 }
 
 /* A slider, a choice or a box for each row of preferences.def. */
