@@ -5,14 +5,14 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A picture that is not there is done without. */
+/* In the place of an older one, which belongs to numbers that do not count any more. A picture that is not there is done without. */
 static nook_result copy_picture(const char *from, const char *folder, const char *path)
 {
     char source[4096], target[4096], parent[4096];
     nook_file file;
     nook_path_join(source, sizeof source, from, path);
     nook_path_join(target, sizeof target, folder, path);
-    if (path[0] == '\0' || nook_file_exists(target) || !nook_file_exists(source))
+    if (path[0] == '\0' || !nook_file_exists(source))
         return NOOK_OK;
     snprintf(parent, sizeof parent, "%.*s", (int)(nook_path_name(target) - target), target);
     nook_result result = nook_directory_make(parent);

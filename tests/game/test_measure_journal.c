@@ -345,6 +345,51 @@ static void test_merging_takes_what_is_missing_and_what_is_newer_with_its_pictur
     nook_results_free(&results);
 }
 
+static void write_picture(const char *folder, const char *picture, const char *text)
+{
+    char path[PATH_CAPACITY + 64];
+    assert_int_equal(nook_directory_make(nook_path_join(path, sizeof path, folder, "pictures")), NOOK_OK);
+    assert_int_equal(nook_file_write(nook_path_join(path, sizeof path, folder, picture), text, strlen(text)), NOOK_OK);
+}
+
+static void assert_picture(const char *folder, const char *picture, const char *text)
+{
+    char path[PATH_CAPACITY + 64];
+    nook_file file;
+    assert_int_equal(nook_file_read(nook_path_join(path, sizeof path, folder, picture), &file), NOOK_OK);
+    assert_string_equal((const char *)file.bytes, text);
+    nook_file_free(&file);
+}
+
+/* Both folders have a picture of the row under one name. */
+static void test_a_row_that_is_taken_brings_its_picture_and_one_that_is_left_does_not(void **state)
+{
+    (void)state;
+    char ours[PATH_CAPACITY], theirs[PATH_CAPACITY];
+    nook_journal journal;
+    size_t taken = 0, left = 0;
+    nook_result_row rows[] = { make_row("c", "ssao", "old", 0.1), make_row("d", "ssao", "now", 0.2) };
+    nook_result_row others[] = { make_row("c", "ssao", "now", 0.3), make_row("d", "ssao", "now", 0.4) };
+    rows[0].picture = others[0].picture = "pictures/c.png";
+    rows[1].picture = others[1].picture = "pictures/d.png";
+    make_folder(ours, "ours_pictured");
+    make_folder(theirs, "theirs_pictured");
+    for (size_t i = 0; i < 2; i++) {
+        append(ours, &rows[i]);
+        append(theirs, &others[i]);
+        write_picture(ours, rows[i].picture, "ours");
+        write_picture(theirs, others[i].picture, "theirs");
+    }
+    nook_results results = must_read(ours);
+    assert_int_equal(nook_journal_open(ours, &journal), NOOK_OK);
+    assert_int_equal(nook_measure_merge(theirs, ours, "now", &results, &journal, &taken, &left), NOOK_OK);
+    nook_journal_close(&journal);
+    nook_results_free(&results);
+    assert_true(taken == 1 && left == 1);
+    assert_picture(ours, "pictures/c.png", "theirs");
+    assert_picture(ours, "pictures/d.png", "ours");
+}
+
 static void test_a_folder_without_rows_cannot_be_merged(void **state)
 {
     (void)state;
@@ -515,6 +560,7 @@ int main(void)
         cmocka_unit_test(test_a_damaged_line_is_refused_with_its_number),
         cmocka_unit_test(test_a_folder_that_is_being_written_to_is_refused),
         cmocka_unit_test(test_merging_takes_what_is_missing_and_what_is_newer_with_its_pictures),
+        cmocka_unit_test(test_a_row_that_is_taken_brings_its_picture_and_one_that_is_left_does_not),
         cmocka_unit_test(test_a_folder_without_rows_cannot_be_merged),
         cmocka_unit_test(test_csv_is_quoted_as_rfc_4180_says),
         cmocka_unit_test(test_json_has_rows_machine_date_and_command),
