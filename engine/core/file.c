@@ -126,6 +126,20 @@ nook_result nook_file_write(const char *path, const void *bytes, size_t size)
     return reason == 0 ? NOOK_OK : nook_fail(NOOK_E_IO, "%s: cannot write: %s", path, strerror(reason));
 }
 
+nook_result nook_file_probe(const char *path)
+{
+    char probe[PATH_CAPACITY];
+    if (nook_directory_exists(path))
+        return nook_fail(NOOK_E_IO, "%s: a directory; give the name of a file", path);
+    int length = snprintf(probe, sizeof probe, "%s.probe", path);
+    bool fits = length >= 0 && (size_t)length < sizeof probe;
+    int reason = fits ? nook_file_try_write(probe, "", 0) : ENAMETOOLONG;
+    if (reason != 0)
+        return nook_fail(NOOK_E_IO, "%s: cannot write: %s", path, strerror(reason));
+    unlink(probe);
+    return NOOK_OK;
+}
+
 bool nook_file_exists(const char *path)
 {
     struct stat info;

@@ -32,6 +32,12 @@ nook_result nook_file_write(const char *path, const void *bytes, size_t size);
 /** The same without a line in the log, for what may fail. @return 0, or the errno that says why not */
 int nook_file_try_write(const char *path, const void *bytes, size_t size);
 
+/**
+ * Whether a file of that name can be written, for who would else find out after hours of work: writes one beside it and removes it.
+ * @return NOOK_E_IO no, and why
+ */
+nook_result nook_file_probe(const char *path);
+
 bool nook_file_exists(const char *path); /**< A regular file. */
 bool nook_directory_exists(const char *path);
 /** Makes a directory and its parents. @return NOOK_E_IO */

@@ -50,7 +50,7 @@ static nook_result report(const extremes_options *options, const nook_gpu *gpu, 
     nook_json json = { 0 };
     nook_extreme_write_json(&json, rows, gpu->renderer, options->quick);
     nook_result result = nook_findings_put_json(&json, options->out, options->json);
-    if (result == NOOK_OK && !options->json)
+    if (!options->json)
         nook_extreme_print_summary(stdout, rows);
     return result;
 }
@@ -121,5 +121,5 @@ int nook_command_extremes(const nook_app *app, int argc, char **argv)
         nook_extreme_print_list(stdout, settings.only);
         return NOOK_EXIT_OK;
     }
-    return nook_findings_with_device(app, settings.backend, run_on, &settings);
+    return nook_findings_with_device(app, settings.backend, settings.out, run_on, &settings);
 }

@@ -1,4 +1,6 @@
+#include "engine/core/file.h"
 #include "engine/core/log.h"
+#include "game/command_line.h"
 #include "game/commands/commands.h"
 #include "game/interrupt.h"
 #include "game/measure/measure_merge.h"
@@ -11,28 +13,6 @@
 #include <string.h>
 
 enum { COMMAND_CAPACITY = 2048 };
-
-/* The command line as a shell takes it. */
-static const char *join_command(int argc, char **argv, char out[COMMAND_CAPACITY])
-{
-    size_t used = (size_t)snprintf(out, COMMAND_CAPACITY, "./nook");
-    for (int i = 0; i < argc && used < COMMAND_CAPACITY; i++) {
-        const char *quote = strpbrk(argv[i], " \t'\"$&|;<>()*?[]#~\\`!") ? "'" : "";
-        used += (size_t)snprintf(out + used, COMMAND_CAPACITY - used, " %s%s%s", quote, argv[i], quote);
-    }
-    return out;
-}
-
-static nook_result list_scenes(const nook_measure_options *options, nook_scene_list *out_scenes)
-{
-    nook_result result = NOOK_OK;
-    *out_scenes = (nook_scene_list){ 0 };
-    for (int i = 0; i < options->scene_count && result == NOOK_OK; i++)
-        result = nook_scene_list_add(out_scenes, options->scenes[i]);
-    if (result == NOOK_OK && options->scene_folder)
-        result = nook_scene_list_add_folder(out_scenes, options->scene_folder);
-    return result;
-}
 
 /* What is in the folder, and what other folders have to add. */
 static nook_result gather(const nook_measure_options *options, const char *build, nook_journal *journal,
@@ -52,38 +32,67 @@ static nook_result gather(const nook_measure_options *options, const char *build
     return result;
 }
 
-/* The settings of the sweep, and that of the settings file. */
-static nook_result read_sweep(const nook_measure_options *options, nook_sweep *out)
+/* ---- Before the work ---------------------------------------------------------------------------------------------- */
+
+/* What is to be measured. */
+typedef struct plan {
+    nook_scene_list scenes;
+    nook_sweep sweep;
+} plan;
+
+static void free_plan(plan *p)
 {
-    nook_result result = nook_sweep_read(options->sweep, out);
-    if (result != NOOK_OK || !options->settings)
-        return result;
-    result = nook_sweep_add(options->settings, out, &options->file.setting);
-    if (result != NOOK_OK)
-        nook_sweep_free(out);
+    nook_scene_list_free(&p->scenes);
+    nook_sweep_free(&p->sweep);
+}
+
+static nook_result list_scenes(const nook_measure_options *options, nook_scene_list *list)
+{
+    nook_result result = NOOK_OK;
+    for (int i = 0; i < options->scene_count && result == NOOK_OK; i++) {
+        if (!nook_file_exists(options->scenes[i]))
+            result = nook_fail(NOOK_E_NOT_FOUND, "%s: no such file; nothing was measured", options->scenes[i]);
+        else
+            result = nook_scene_list_add(list, options->scenes[i]);
+    }
+    if (result == NOOK_OK && options->scene_folder)
+        result = nook_scene_list_add_folder(list, options->scene_folder);
     return result;
 }
 
-static nook_result measure(const nook_app *app, const nook_measure_options *options, nook_measure_run *run)
+/* The settings of the sweep, and that of the settings file. */
+static nook_result read_sweep(nook_measure_options *options, nook_sweep *out)
 {
-    nook_scene_list scenes;
-    nook_sweep sweep;
-    nook_result result = read_sweep(options, &sweep);
-    if (result != NOOK_OK)
-        return result;
-    result = list_scenes(options, &scenes);
-    if (result == NOOK_OK) {
-        run->root = app->root;
-        run->folder = options->out;
-        run->cache = options->cache;
-        run->backend = options->backend;
-        run->sweep = &sweep;
-        nook_measure_run_scenes(run, &scenes);
-    }
-    run->sweep = NULL;
-    nook_scene_list_free(&scenes);
-    nook_sweep_free(&sweep);
+    nook_result result = options->settings ? nook_settings_file_read(options->settings, &options->file) : NOOK_OK;
+    if (result == NOOK_OK)
+        result = nook_sweep_read(options->sweep, out);
+    if (result == NOOK_OK && options->settings)
+        result = nook_sweep_add(options->settings, out, &options->file.setting);
     return result;
+}
+
+/* All that can be wrong with paths, before hours of work: @param out  to be freed, also on failure */
+static nook_result prepare(nook_measure_options *options, plan *out)
+{
+    nook_result result = options->document ? nook_report_document_check(options->document) : NOOK_OK;
+    if (options->tables)
+        return result;
+    if (result == NOOK_OK)
+        result = read_sweep(options, &out->sweep);
+    return result == NOOK_OK ? list_scenes(options, &out->scenes) : result;
+}
+
+/* ---- The work ----------------------------------------------------------------------------------------------------- */
+
+static void measure(const nook_app *app, const nook_measure_options *options, const plan *p, nook_measure_run *run)
+{
+    run->root = app->root;
+    run->folder = options->out;
+    run->cache = options->cache;
+    run->backend = options->backend;
+    run->sweep = &p->sweep;
+    nook_measure_run_scenes(run, &p->scenes);
+    run->sweep = NULL;
 }
 
 static nook_result write_all(const nook_app *app, const nook_measure_options *options, const char *command,
@@ -118,50 +127,54 @@ static bool print_summary(const nook_measure_options *options, const nook_measur
     return holds;
 }
 
-static nook_result run_and_write(const nook_app *app, const nook_measure_options *options, const char *command,
-                                 nook_measure_run *run, bool *out_interrupted)
+static int run_measurement(const nook_app *app, const nook_measure_options *options, const plan *p, const char *command,
+                           nook_measure_run *run)
 {
+    nook_interrupt_hold();
     nook_result result = nook_results_read(options->out, run->results);
     if (result == NOOK_OK)
         result = gather(options, run->build, run->journal, run->results);
-    if (result == NOOK_OK && !options->tables)
-        result = measure(app, options, run);
-    *out_interrupted = nook_interrupt_asked();
+    bool ready = result == NOOK_OK;
+    if (ready && !options->tables)
+        measure(app, options, p, run);
+    bool interrupted = nook_interrupt_asked();
     nook_interrupt_answer();
-    return result == NOOK_OK ? write_all(app, options, command, run->results) : result;
-}
-
-static int run_measurement(const nook_app *app, const nook_measure_options *options, const char *command,
-                           nook_measure_run *run)
-{
-    bool interrupted;
-    nook_interrupt_hold();
-    nook_result result = run_and_write(app, options, command, run, &interrupted);
+    if (ready)
+        result = write_all(app, options, command, run->results);
     nook_interrupt_release();
-    if (result != NOOK_OK)
+    if (!ready)
         return NOOK_EXIT_FAILED;
     if (interrupted)
         nook_log_warning("interrupted; what was measured is kept, and the same command goes on from there");
-    bool holds = print_summary(options, run);
-    return holds && !interrupted && run->failures == 0 ? NOOK_EXIT_OK : NOOK_EXIT_FAILED;
+    bool holds = print_summary(options, run); /* also when the tables could not be written */
+    return result == NOOK_OK && holds && !interrupted && run->failures == 0 ? NOOK_EXIT_OK : NOOK_EXIT_FAILED;
+}
+
+static int open_and_run(const nook_app *app, const nook_measure_options *options, const plan *p, const char *command)
+{
+    char build[NOOK_ORIGIN_BUILD_SIZE];
+    nook_results results = { 0 };
+    nook_journal journal;
+    if (nook_origin_build(app->root, build) != NOOK_OK || nook_journal_open(options->out, &journal) != NOOK_OK)
+        return NOOK_EXIT_FAILED;
+    nook_measure_run run = { .build = build, .results = &results, .journal = &journal };
+    int exit_code = run_measurement(app, options, p, command, &run);
+    nook_journal_close(&journal);
+    nook_results_free(&results);
+    return exit_code;
 }
 
 int nook_command_measure(const nook_app *app, int argc, char **argv)
 {
     nook_measure_options options;
-    char build[NOOK_ORIGIN_BUILD_SIZE], command[COMMAND_CAPACITY];
-    nook_results results = { 0 };
-    nook_journal journal;
+    char command[COMMAND_CAPACITY];
+    plan p = { 0 };
     int exit_code;
     if (!nook_measure_options_read(app, argc, argv, &options, &exit_code))
         return exit_code;
-    if (options.settings && nook_settings_file_read(options.settings, &options.file) != NOOK_OK)
-        return NOOK_EXIT_FAILED;
-    if (nook_origin_build(app->root, build) != NOOK_OK || nook_journal_open(options.out, &journal) != NOOK_OK)
-        return NOOK_EXIT_FAILED;
-    nook_measure_run run = { .build = build, .results = &results, .journal = &journal };
-    exit_code = run_measurement(app, &options, join_command(argc, argv, command), &run);
-    nook_journal_close(&journal);
-    nook_results_free(&results);
+    exit_code = prepare(&options, &p) == NOOK_OK
+                    ? open_and_run(app, &options, &p, nook_command_line_join(argc, argv, command, sizeof command))
+                    : NOOK_EXIT_FAILED;
+    free_plan(&p);
     return exit_code;
 }

@@ -1,3 +1,4 @@
+#include "engine/core/file.h"
 #include "game/commands/commands.h"
 #include "game/tune/tune_report.h"
 #include "game/tune/tune_run.h"
@@ -30,7 +31,7 @@ int nook_command_tune(const nook_app *app, int argc, char **argv)
                                    .width = (uint32_t)options.size.width,
                                    .height = (uint32_t)options.size.height };
     nook_stage stage = { 0 };
-    nook_result result = nook_tune_report_prepare(options.out);
+    nook_result result = nook_file_probe(options.out);
     if (result == NOOK_OK)
         result = nook_stage_open(&desc, &stage);
     if (result == NOOK_OK)

@@ -33,7 +33,7 @@ static nook_result report(const verify_options *options, const nook_gpu *gpu, co
     nook_json json = { 0 };
     nook_verify_write_json(&json, rows, gpu->renderer, seconds);
     nook_result result = nook_findings_put_json(&json, options->out, options->json);
-    if (result == NOOK_OK && !options->json) {
+    if (!options->json) {
         nook_verify_print_notes(stdout, rows);
         nook_verify_print_summary(stdout, rows, seconds);
     }
@@ -119,5 +119,5 @@ int nook_command_verify(const nook_app *app, int argc, char **argv)
     if (nook_verify_choose_techniques(settings.techniques, &request.desc) != NOOK_OK ||
         nook_verify_choose_fixtures(settings.fixtures, &request.desc, fixtures, sizeof fixtures) != NOOK_OK)
         return NOOK_EXIT_USAGE;
-    return nook_findings_with_device(app, settings.backend, run_on, &request);
+    return nook_findings_with_device(app, settings.backend, settings.out, run_on, &request);
 }

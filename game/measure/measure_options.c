@@ -1,5 +1,6 @@
 #include "game/measure/measure_options.h"
 #include "engine/core/file.h"
+#include "engine/core/log.h"
 #include "engine/core/result.h"
 #include <stdio.h>
 
@@ -25,6 +26,20 @@ static void take_scenes(const nook_arguments *arguments, nook_measure_options *o
         out->scenes[out->scene_count++] = arguments->positionals[i];
     if (out->scene_count == 0 && !out->scene_folder)
         out->scenes[out->scene_count++] = out->default_scene;
+}
+
+/* What --tables would not look at. @param sweep  as it was given; NULL: it was not */
+static bool refuse_with_tables(const nook_measure_options *options, const char *sweep, int scene_count)
+{
+    const char *ignored = scene_count > 0         ? "a scene"
+                          : options->scene_folder ? "--scenes"
+                          : sweep                 ? "--sweep"
+                          : options->settings     ? "--settings"
+                                                  : NULL;
+    if (options->tables && ignored)
+        nook_fail(NOOK_E_ARG, "measure: --tables measures nothing, so that %s is of no use; leave one of them out",
+                  ignored);
+    return options->tables && ignored;
 }
 
 bool nook_measure_options_read(const nook_app *app, int argc, char **argv, nook_measure_options *out,
@@ -97,6 +112,10 @@ bool nook_measure_options_read(const nook_app *app, int argc, char **argv, nook_
     nook_arguments arguments;
     if (!nook_arguments_read(&usage, argc, argv, &arguments, out_exit_code))
         return false;
+    if (refuse_with_tables(out, out->sweep, arguments.positional_count)) {
+        *out_exit_code = NOOK_EXIT_USAGE;
+        return false;
+    }
     choose_suite(app, out);
     take_scenes(&arguments, out);
     return true;

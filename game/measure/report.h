@@ -11,6 +11,9 @@
 nook_result nook_report_html_write(const char *root, const nook_results *results, const char *folder,
                                    const char *command);
 
+/** Whether the tables can be put into a document. @return as nook_report_document_write */
+nook_result nook_report_document_check(const char *path);
+
 /**
  * Puts the tables into a document between the lines "<!-- measured: begin -->" and "<!-- measured: end -->"; the rest of it stays.
  * @return NOOK_E_FORMAT no such lines, NOOK_E_IO; the document is as it was then

@@ -250,16 +250,39 @@ static const char *find_line(const char *text, const char *line)
     return NULL;
 }
 
-static nook_result put_document(FILE *out, const char *old, const char *path, const nook_results *results,
-                                const char *command)
+/* @param out_begin, out_end  the two lines in its text */
+static nook_result find_marks(const char *path, const char *text, const char **out_begin, const char **out_end)
 {
-    const char *begin = find_line(old, BEGIN_LINE), *end = begin ? find_line(begin, END_LINE) : NULL;
+    const char *begin = find_line(text, BEGIN_LINE), *end = begin ? find_line(begin, END_LINE) : NULL;
     if (!end)
         return nook_fail(NOOK_E_FORMAT,
                          "%s: has no lines '" BEGIN_LINE "' and '" END_LINE "'; the tables go between them", path);
+    *out_begin = begin;
+    *out_end = end;
+    return NOOK_OK;
+}
+
+nook_result nook_report_document_check(const char *path)
+{
+    nook_file file;
+    const char *begin, *end;
+    nook_result result = nook_file_read(path, &file);
+    if (result != NOOK_OK)
+        return result;
+    result = find_marks(path, (const char *)file.bytes, &begin, &end);
+    nook_file_free(&file);
+    return result == NOOK_OK ? nook_file_probe(path) : result;
+}
+
+static nook_result put_document(FILE *out, const char *old, const char *path, const nook_results *results,
+                                const char *command)
+{
+    const char *begin, *end;
+    nook_result result = find_marks(path, old, &begin, &end);
+    if (result != NOOK_OK)
+        return result;
     fwrite(old, 1, (size_t)(begin - old), out);
     fputs(BEGIN_LINE "\n\n", out);
-    nook_result result = NOOK_OK;
     if (results->row_count) {
         put_head(out, results, command);
         result = put_views(out, results);

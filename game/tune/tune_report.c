@@ -5,25 +5,10 @@
 #include "game/measure/measure_origin.h"
 #include "game/settings/settings_file.h"
 #include "modules/ao/technique.h"
-#include <errno.h>
 #include <math.h>
 #include <string.h>
-#include <unistd.h>
 
 static const double percent = 100.0;
-
-nook_result nook_tune_report_prepare(const char *path)
-{
-    char probe[NOOK_OPTION_PATH_MAX + 16];
-    if (nook_directory_exists(path))
-        return nook_fail(NOOK_E_IO, "%s: a directory; give --out the name of a file", path);
-    snprintf(probe, sizeof probe, "%s.probe", path);
-    int reason = nook_file_try_write(probe, "", 0);
-    if (reason != 0)
-        return nook_fail(NOOK_E_IO, "%s: cannot write: %s", path, strerror(reason));
-    unlink(probe);
-    return NOOK_OK;
-}
 
 /* "error 0.05 and 20 ms" */
 static const char *print_goal(const nook_tune_goal *goal, char out[96])

@@ -5,9 +5,6 @@
 #include "game/tune/tune_run.h"
 #include <stdio.h>
 
-/** Whether the settings file can be written, without writing it. @return NOOK_E_IO, and one line says why not */
-nook_result nook_tune_report_prepare(const char *path);
-
 /** Writes the settings file, with what it was found by and what it does in comments. @return NOOK_E_IO, NOOK_E_MEMORY */
 nook_result nook_tune_report_write(const nook_tune_result *result, const nook_tune_options *options,
                                    const nook_stage *stage);

@@ -164,6 +164,25 @@ static void test_file_write_into_a_missing_folder_fails(void **state)
     assert_non_null(strstr(logged.text, path));
 }
 
+static void test_file_probe_says_whether_a_file_can_be_written_and_leaves_nothing(void **state)
+{
+    (void)state;
+    char path[CAPACITY], folder[CAPACITY], probe[CAPACITY + 16];
+    nook_log_capture log;
+    nook_scratch_path(path, sizeof path, "probed.txt");
+    nook_scratch_path(folder, sizeof folder, "probed_folder");
+    assert_int_equal(nook_directory_make(folder), NOOK_OK);
+    assert_int_equal(nook_file_probe(path), NOOK_OK);
+    assert_false(nook_file_exists(path));
+    snprintf(probe, sizeof probe, "%s.probe", path);
+    assert_false(nook_file_exists(probe));
+    nook_log_capture_begin(&log);
+    assert_int_equal(nook_file_probe(folder), NOOK_E_IO);
+    assert_int_equal(nook_file_probe(strcat(folder, "/none/x")), NOOK_E_IO);
+    nook_log_capture_end();
+    assert_int_equal(log.errors, 2);
+}
+
 static void test_directory_make_makes_parents_and_accepts_what_is_there(void **state)
 {
     (void)state;
@@ -219,6 +238,7 @@ int main(void)
         cmocka_unit_test(test_file_write_that_runs_out_of_room_keeps_the_old_file),
         cmocka_unit_test(test_file_write_over_a_directory_fails_and_leaves_it),
         cmocka_unit_test(test_file_write_into_a_missing_folder_fails),
+        cmocka_unit_test(test_file_probe_says_whether_a_file_can_be_written_and_leaves_nothing),
         cmocka_unit_test(test_directory_make_makes_parents_and_accepts_what_is_there),
         cmocka_unit_test(test_directory_make_refuses_a_file_in_the_way),
         cmocka_unit_test(test_path_join_puts_one_separator),

@@ -47,8 +47,21 @@ test_text_that_no_case_holds_is_refused_in_one_line() {
     [ "$(wc -l <<<"$line")" -eq 1 ]
 }
 
-test_file_that_cannot_be_written_fails() {
-    assert_holds "$(assert_fails 1 extremes --quick --only 'm_b^-1' --out "$tmp/no/such/folder/x.json")" 'no/such/folder'
+test_file_that_cannot_be_written_is_refused_before_the_work() {
+    local said
+    said=$(assert_fails 1 extremes --quick --only 'm_b^-1' --out "$tmp/no/such/folder/x.json")
+    assert_holds "$said" 'no/such/folder'
+    [ "$(wc -l <<<"$said")" -eq 1 ]
+}
+
+# There is room for the empty file that is tried first, and for no byte more.
+test_summary_is_printed_though_the_file_cannot_be_written() {
+    local said
+    said=$( (trap '' XFSZ; ulimit -f 0; extremes --quick --only 'm_b^-1' --out "$tmp/full.json") 2>&1 || echo "code $?")
+    assert_holds "$said" 'full.json: cannot write'
+    assert_holds "$(tail -n 2 <<<"$said")" '1 hold, 0 do not'
+    assert_holds "$(tail -n 1 <<<"$said")" 'code 1'
+    [ ! -e "$tmp/full.json" ]
 }
 
 test_no_scratch_folder_is_left() {

@@ -186,6 +186,36 @@ test_what_is_wrong_is_one_line() {
     assert_holds "$said" 'journal.jsonl'
     said=$(assert_fails 1 measure "$crate" --sweep "$tmp/sweep.txt" --out "$tmp/sweep.txt")
     [ "$(wc -l <<<"$said")" -eq 1 ]
+    [ ! -e "$tmp/wrong" ] || [ -z "$(ls "$tmp/wrong" | grep -v journal.jsonl)" ]
+}
+
+# untouched OPTIONS...: refused in one line, before the first row and before there is a folder.
+untouched() {
+    said=$(assert_fails "$@" --out "$tmp/untouched")
+    [ "$(wc -l <<<"$said")" -eq 1 ] && [ ! -e "$tmp/untouched" ]
+}
+
+test_paths_are_looked_at_before_the_work() {
+    local said
+    untouched 1 measure "$crate" "$tmp/missing.glb" --sweep "$tmp/sweep.txt"
+    assert_holds "$said" 'missing.glb: no such file'
+    untouched 1 measure "$crate" --sweep "$tmp/sweep.txt" --document "$tmp/no.md"
+    assert_holds "$said" 'no.md'
+    echo 'no marks' >"$tmp/unmarked.md"
+    untouched 1 measure "$crate" --sweep "$tmp/sweep.txt" --document "$tmp/unmarked.md"
+    assert_holds "$said" 'measured: begin'
+    untouched 1 measure "$crate" --sweep "$tmp/none.txt"
+    untouched 1 measure "$crate" --sweep "$tmp/sweep.txt" --settings "$tmp/none.txt"
+    untouched 1 measure --scenes "$tmp/nowhere" --sweep "$tmp/sweep.txt"
+}
+
+test_what_tables_would_ignore_is_refused() {
+    local said
+    untouched 2 measure --tables "$crate"
+    assert_holds "$said" '--tables measures nothing, so that a scene is of no use'
+    untouched 2 measure --tables --sweep "$tmp/sweep.txt"
+    untouched 2 measure --tables --scenes "$tmp"
+    untouched 2 measure --tables --settings "$tmp/sweep.txt"
 }
 
 run_tests

@@ -81,6 +81,7 @@ test_wrong_names_are_refused_in_one_line() {
     assert_holds "$said" '--rays'
     said=$(assert_fails 1 verify --quick --techniques reference --fixtures disc --out /nowhere/verify.json)
     assert_holds "$said" '/nowhere'
+    [ "$(wc -l <<<"$said")" -eq 1 ] # before any work
 }
 
 run_tests
