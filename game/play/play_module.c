@@ -36,7 +36,9 @@ static nook_result create(void *state, const nook_module_news *news)
                                          .settings = request.settings,
                                          .cache = request.cache,
                                          .pictures = request.pictures,
-                                         .capture = request.capture };
+                                         .capture = request.capture,
+                                         .from_seconds = request.from,
+                                         .frames = (uint32_t)request.frames };
     return nook_play_window_open(arguments->root, &desc, state);
 }
 

@@ -9,6 +9,8 @@ typedef struct nook_play_request {
     nook_play_desc desc;
     bool headless;
     const char *settings, *cache, *pictures, *capture; /**< capture: NULL for none. */
+    double from;    /**< Seconds of the replay or pilot that pass before the first picture. */
+    int32_t frames; /**< Pictures until it ends; 0: no such end. */
     nook_option_size size;
     nook_backend backend;
     char default_cache[NOOK_OPTION_PATH_MAX];

@@ -80,6 +80,16 @@ static nook_result make_live(nook_play_window *w, const char *pictures)
     return nook_live_create(&live, &w->live);
 }
 
+/* Plays without pictures, as fast as it goes, while something but the player drives it. */
+static nook_result pass_time(nook_play_window *w, double seconds)
+{
+    const nook_play_input nothing = { 0 };
+    nook_result result = NOOK_OK;
+    for (double t = 0.0; t < seconds && result == NOOK_OK && !nook_play_is_free(&w->play); t += NOOK_PHYSICS_STEP)
+        result = nook_play_tick(&w->play, &nothing);
+    return result;
+}
+
 static nook_result begin(nook_play_window *w, const nook_play_window_desc *desc)
 {
     nook_result result = fill_stage(w, desc->cache);
@@ -89,7 +99,8 @@ static nook_result begin(nook_play_window *w, const nook_play_window_desc *desc)
         result = make_live(w, desc->pictures);
     if (result != NOOK_OK)
         return result;
-    if (desc->capture)
+    result = pass_time(w, desc->from_seconds);
+    if (result == NOOK_OK && desc->capture)
         result = nook_live_capture(w->live, desc->capture, captured_rate);
     if (result != NOOK_OK)
         return result;
@@ -112,6 +123,7 @@ nook_result nook_play_window_open(const char *root, const nook_play_window_desc 
     w->frame_seconds = desc->capture ? 1.0 / captured_rate : desc->frame_seconds;
     w->driven = desc->driven;
     w->captures = desc->capture != NULL;
+    w->frames_left = desc->frames;
     nook_path_join(w->preferences_path, sizeof w->preferences_path, desc->cache, "preferences.txt");
     nook_preferences_read(w->preferences_path, &w->preferences);
     w->kept = w->preferences;
@@ -293,6 +305,8 @@ nook_result nook_play_window_frame(nook_play_window *w, bool *out_goes_on)
     if (result == NOOK_OK && !hidden)
         result = draw(w);
     nook_play_tell(w);
+    if (w->frames_left > 0 && --w->frames_left == 0)
+        w->quit = true;
     *out_goes_on = result == NOOK_OK && !w->quit && (w->has_window || w->driven || !nook_play_is_free(&w->play));
     return result;
 }

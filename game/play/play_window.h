@@ -28,6 +28,8 @@ typedef struct nook_play_window_desc {
     const char *cache;      /**< Baked volumes, and the player's preferences. */
     const char *pictures;   /**< Folder of the pictures that the player takes. */
     const char *capture;  /**< Where every frame goes, see nook_live_capture; each lasts 1/30 s then. NULL: nowhere. */
+    double from_seconds;  /**< Of the replay or pilot, that pass before the first picture. */
+    uint32_t frames;      /**< Pictures until it ends; 0: no such end. */
     bool driven;          /**< Who calls drives it: neither window, replay nor pilot is needed. */
     double frame_seconds; /**< > 0: every frame takes this long. 0: what the clock says. */
 } nook_play_window_desc;
@@ -64,8 +66,9 @@ typedef struct nook_play_window {
     nook_frame_pacing pacing;
     char trouble
         [1024]; /**< Yours to set: what is wrong with code that was to be loaded; stands on the screen. "": nothing. */
-    nook_play_told told; /**< What the log and the title have said last. */
-    bool captures;       /**< Every frame goes into a file. */
+    nook_play_told told;  /**< What the log and the title have said last. */
+    uint32_t frames_left; /**< 0: no end. */
+    bool captures;        /**< Every frame goes into a file. */
     bool driven, has_window, paused, help, captured;
     bool quit;              /**< Asked for in the menu or by the window. */
     bool restart;           /**< Asked for in the menu: goes into the next tick. */
