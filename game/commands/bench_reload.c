@@ -20,7 +20,7 @@ enum { SAVES_MAX = 1000, PATH_CAPACITY = 4096 };
 static const double patience_ms = 60000.0;
 
 /* What is saved. */
-static const char *const files[] = { "shaders/render/view.frag.glsl", "shaders/ao/volume.comp.glsl",
+static const char *const files[] = { "shaders/render/lighting.frag.glsl", "shaders/ao/volume.comp.glsl",
                                      "shaders/ao/frame.glsl", "shaders/render/frame.glsl" };
 
 typedef struct reload_options {

@@ -91,6 +91,15 @@ static void keep_change(void *user, const char *path)
         self->lost = true;
 }
 
+/* One of the changes, for the log: a shader rather than what an editor leaves beside it. */
+static const char *some_change(const nook_shader_reload *self)
+{
+    for (size_t i = 0; i < self->changed_count; i++)
+        if (strcmp(nook_path_extension(self->changed[i]), ".glsl") == 0)
+            return self->changed[i];
+    return self->changed_count > 0 ? self->changed[0] : "all";
+}
+
 static void reload(nook_shader_reload *self)
 {
     nook_shader_status *status = &self->status;
@@ -103,8 +112,8 @@ static void reload(nook_shader_reload *self)
     status->last_ms = nook_clock_ms() - nook_file_watch_seen_ms(self->watch);
     status->building_ms = self->report.ms;
     nook_log_info("shaders: %u %s reloaded, %.0f ms after the change was seen (%s%s)", self->report.reloaded,
-                  self->report.reloaded == 1 ? "program" : "programs", status->last_ms,
-                  self->changed_count > 0 ? self->changed[0] : "all", self->changed_count > 1 ? ", ..." : "");
+                  self->report.reloaded == 1 ? "program" : "programs", status->last_ms, some_change(self),
+                  self->changed_count > 1 ? ", ..." : "");
 }
 
 bool nook_shader_reload_poll(nook_shader_reload *self)

@@ -110,11 +110,11 @@ static void test_saved_shader_is_seen(void **state)
     picture out;
     draw(self, NOOK_VIEW_LIT, out);
     assert_false(nook_shader_reload_poll(self->reload));
-    file_tree_edit(&self->tree, "shaders/render/view.frag.glsl", "image = vec4(colour, 1.0);",
-                   "image = vec4(1.0, 0.0, 1.0, 1.0);");
+    file_tree_edit(&self->tree, "shaders/render/tone.glsl", "vec3 srgb_encode(vec3 c)\n{",
+                   "vec3 srgb_encode(vec3 c)\n{\n    return vec3(1.0, 0.0, 1.0);");
     const nook_shader_status *status = wait_for_news(self);
     assert_string_equal(status->error, "");
-    assert_int_equal(status->reloads, 1);
+    assert_true(status->reloads >= 1);
     assert_int_equal(status->failures, 0);
     assert_true(status->last_ms >= status->building_ms && status->building_ms > 0.0);
     draw(self, NOOK_VIEW_LIT, out);

@@ -61,15 +61,15 @@ test_preferences_last_from_one_game_to_the_next() {
 test_a_saved_shader_is_seen_in_the_game_a_broken_one_is_said_and_the_mended_one_is_seen() {
     copy_root
     in_game '
-        shader=$root/shaders/render/view.frag.glsl
-        sed -i "s/image = vec4(colour, 1.0)/image = vec4(1.0, 0.0, 1.0, 1.0)/" "$shader"
+        shader=$root/shaders/render/tone.glsl
+        sed -i "/^vec3 srgb_encode/,/{/ s/{/{ return vec3(1.0, 0.0, 1.0);/" "$shader"
         wait_for 30 has_pixel 310 190 FF00FF
         echo "float broken = no_such_name;" >>"$shader"
-        wait_for 30 log_has "shaders/render/view.frag.glsl:.*no_such_name"
+        wait_for 30 log_has "shaders/render/tone.glsl:.*no_such_name"
         has_pixel 310 190 FF00FF
         has_red() { import -window "$window" "$tmp/error.png"; [ "$(red_in "$tmp/error.png")" = 1 ]; }
         wait_for 30 has_red
-        sed -i "/no_such_name/d; s/vec4(1.0, 0.0, 1.0, 1.0)/vec4(0.0, 1.0, 0.0, 1.0)/" "$shader"
+        sed -i "/no_such_name/d; s/vec3(1.0, 0.0, 1.0)/vec3(0.0, 1.0, 0.0)/" "$shader"
         wait_for 30 has_pixel 310 190 00FF00'
 }
 
