@@ -1,3 +1,4 @@
+#include "engine/core/log.h"
 #include "engine/module/module_image_internal.h"
 #include <stdarg.h>
 #include <stdio.h>
@@ -18,9 +19,12 @@ nook_result nook_module_refuse(nook_module_reason *out_reason, nook_result code,
 static nook_result check_interface(const char *name, const nook_interface_view *engine, nook_module_reason *out_reason,
                                    nook_module_image *image)
 {
+    char why[512] = "";
+    nook_log_keep_errors(why, sizeof why);
     nook_result result = nook_interface_read(image->path, &image->interface);
+    nook_log_keep_errors(NULL, 0);
     if (result != NOOK_OK)
-        return nook_module_refuse(out_reason, result, "%s: what it was built against cannot be told; see the log",
+        return nook_module_refuse(out_reason, result, "%s: what it was built against cannot be told: %s", name, why); see the log",
                                   name);
     const nook_interface_view own = { image->interface, NULL, NULL };
     const char *other = nook_interface_difference(engine, &own, NOOK_INTERFACE_PUBLIC_TYPES | NOOK_INTERFACE_FUNCTIONS);

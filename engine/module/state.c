@@ -56,6 +56,8 @@ static bool survives(guarded *call, const char *what, nook_module_reason *out_re
 {
     char suspects[256];
     nook_crash crash = nook_guard_call(run_guarded, call);
+    if (crash.number != 0)
+        nook_log_keep_errors(NULL, 0); /* into what may have been on the stack of the call */
     name_suspects(call->host, crash.address, suspects, sizeof suspects);
     if (crash.number != 0) {
         nook_module_refuse(out_reason, NOOK_E_FORMAT, "%s: crashed in %s (%s)", suspects, what, nook_crash_name(crash));

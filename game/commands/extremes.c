@@ -1,9 +1,9 @@
 #include "game/commands/commands.h"
 #include "game/commands/findings.h"
 #include "game/extremes/extreme_report.h"
-#include "game/extremes/scratch_folder.h"
 #include "game/option_rows.h"
 #include "game/progress.h"
+#include "game/scratch_folder.h"
 
 typedef struct extremes_options {
     const char *only, *out;

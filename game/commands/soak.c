@@ -39,9 +39,9 @@ static bool read_request(const nook_app *app, int argc, char **argv, soak_reques
     };
     const nook_usage usage = {
         .command = "soak",
-        .summary =
-            "Plays a level for very long, with bodies thrown about, shaders reloaded, sizes changed and tries begun\n"
-            "anew, and looks whether anything wears out.",
+        .summary = "Plays a level for very long, with bodies thrown about, shaders and code reloaded, sizes changed "
+                   "and tries\n"
+                   "begun anew, and looks whether anything wears out.",
         .positionals = "[LEVEL]",
         .positional_max = 1,
         .options = options,
@@ -65,8 +65,8 @@ static bool read_request(const nook_app *app, int argc, char **argv, soak_reques
 
 static void print_report(const nook_soak_report *r)
 {
-    printf("frames     %u in %.0f s, %u throws, %u shader reloads, %u resizes, %u restarts\n", r->frames, r->seconds,
-           r->throws, r->reloads, r->resizes, r->restarts);
+    printf("frames     %u in %.0f s, %u throws, %u shader reloads, %u exchanges of code, %u resizes, %u restarts\n",
+           r->frames, r->seconds, r->throws, r->reloads, r->exchanges, r->resizes, r->restarts);
     printf("pixels     %llu looked at, %llu not in [0, 1]\n", (unsigned long long)r->pixels,
            (unsigned long long)r->wrong);
     printf("bodies     %u left the world\n", r->returned);

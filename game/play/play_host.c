@@ -11,20 +11,10 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { NAME_MAX_SIZE = 64 };
-
-/* A technique that is linked in, as the part of its name. */
-typedef struct linked_part {
-    char name[NAME_MAX_SIZE], folder[NAME_MAX_SIZE];
-    const char *folders[2];
-    nook_module module;
-} linked_part;
-
 static const char *const game_folders[] = { "game/", "modules/", NULL };
 static const char *const technique_folders[] = { "modules/ao_", NULL };
 
-/* It must stay where it is. */
-static nook_module_builtin describe_technique(const nook_ao_technique *technique, linked_part *part)
+static nook_module_builtin describe_technique(const nook_ao_technique *technique, nook_play_part *part)
 {
     snprintf(part->name, sizeof part->name, "ao_%s", technique->name);
     snprintf(part->folder, sizeof part->folder, "modules/ao_%s/", technique->name);
@@ -33,6 +23,24 @@ static nook_module_builtin describe_technique(const nook_ao_technique *technique
         .version = NOOK_MODULE_VERSION, .name = part->name, .kind = NOOK_AO_TECHNIQUE_KIND, .interface = technique
     };
     return (nook_module_builtin){ &part->module, part->folders, NULL };
+}
+
+nook_result nook_play_host_create(const nook_module *main_module, const char *folder,
+                                  const nook_module_arguments *arguments, nook_play_host *out_host)
+{
+    size_t count;
+    const nook_ao_technique *const *techniques = nook_techniques(&count);
+    assert(count <= NOOK_MODULE_PARTS_MAX);
+    memset(out_host, 0, sizeof *out_host);
+    out_host->part_count = (uint32_t)count;
+    for (size_t i = 0; i < count; i++)
+        out_host->builtins[i] = describe_technique(techniques[i], &out_host->parts[i]);
+    const nook_module_host_desc desc = { .folder = folder,
+                                         .main = { main_module, game_folders, technique_folders },
+                                         .parts = out_host->builtins,
+                                         .part_count = out_host->part_count,
+                                         .arguments = *arguments };
+    return nook_module_host_create(&desc, &out_host->host);
 }
 
 /* NOOK_LIVE, else build/<kind>/live beside the bin/ that the program is in; "" when it is not where ./nook builds it. */
@@ -75,21 +83,10 @@ static nook_result run(nook_module_host *host)
 
 nook_result nook_play_host_run(const char *root, int argc, char **argv)
 {
-    size_t count;
-    const nook_ao_technique *const *techniques = nook_techniques(&count);
-    linked_part linked[NOOK_MODULE_PARTS_MAX] = { { .folders = { NULL, NULL } } };
-    nook_module_builtin parts[NOOK_MODULE_PARTS_MAX];
     char folder[PATH_MAX];
-    nook_module_host *host;
-    assert(count <= NOOK_MODULE_PARTS_MAX);
-    for (size_t i = 0; i < count; i++)
-        parts[i] = describe_technique(techniques[i], &linked[i]);
+    nook_play_host play;
+    const nook_module_arguments arguments = { .root = root, .argc = argc, .argv = argv };
     find_live_folder(folder, sizeof folder);
-    const nook_module_host_desc desc = { .folder = folder[0] ? folder : NULL,
-                                         .main = { &nook_play_module, game_folders, technique_folders },
-                                         .parts = parts,
-                                         .part_count = (uint32_t)count,
-                                         .arguments = { .root = root, .argc = argc, .argv = argv } };
-    nook_result result = nook_module_host_create(&desc, &host);
-    return result == NOOK_OK ? run(host) : result;
+    nook_result result = nook_play_host_create(&nook_play_module, folder[0] ? folder : NULL, &arguments, &play);
+    return result == NOOK_OK ? run(play.host) : result;
 }

@@ -2,16 +2,25 @@
 #include "engine/core/clock.h"
 #include "engine/core/log.h"
 #include "engine/core/process.h"
+#include "game/play/soak_code.h"
 #include "game/progress.h"
 #include <math.h>
 #include <stdlib.h>
 
 /* How often what happens, in frames: numbers without a common factor, so that everything meets everything. */
-enum { THROW_EVERY = 23, RELOAD_EVERY = 499, RESIZE_EVERY = 1201, RESTART_EVERY = 4999, LOOK_EVERY = 37 };
+enum {
+    THROW_EVERY = 23,
+    EXCHANGE_EVERY = 307,
+    RELOAD_EVERY = 499,
+    RESIZE_EVERY = 1201,
+    RESTART_EVERY = 4999,
+    LOOK_EVERY = 37
+};
 static const double throw_speed = 9.0; /* metres per second */
 
 typedef struct soak {
-    nook_play_window *window;
+    nook_soak_code *code;
+    nook_play_window *window; /**< Its state, which is kept. */
     nook_soak_report *report;
     uint32_t random;
     uint32_t warm; /**< Frames until memory is first looked at. */
@@ -128,7 +137,9 @@ static nook_result disturb(soak *s, uint32_t frame)
         w->restart = true;
         s->report->restarts++;
     }
-    if (frame % RELOAD_EVERY == 0)
+    if (frame % EXCHANGE_EVERY == 0)
+        result = nook_soak_code_exchange(s->code);
+    if (result == NOOK_OK && frame % RELOAD_EVERY == 0)
         result = reload(s);
     if (result == NOOK_OK && frame % RESIZE_EVERY == 0)
         result = resize(s);
@@ -137,11 +148,10 @@ static nook_result disturb(soak *s, uint32_t frame)
 
 static nook_result run_frame(soak *s, uint32_t frame)
 {
-    bool goes_on;
     nook_result result = disturb(s, frame);
     s->window->controls.held = random_input(s);
     if (result == NOOK_OK)
-        result = nook_play_window_frame(s->window, &goes_on);
+        result = nook_soak_code_frame(s->code);
     if (result == NOOK_OK && frame % LOOK_EVERY == 0)
         result = look_at_pixels(s);
     if (result == NOOK_OK && (frame == s->warm || (frame > s->warm && frame % LOOK_EVERY == 0)))
@@ -152,15 +162,16 @@ static nook_result run_frame(soak *s, uint32_t frame)
 
 nook_result nook_soak_run(const char *root, const nook_soak_desc *desc, nook_soak_report *out_report)
 {
-    nook_play_window window;
+    nook_soak_code code;
     nook_play_window_desc how = desc->window;
     how.driven = true;
     how.frame_seconds = NOOK_PHYSICS_STEP * (1.0 + 1e-9); /* so that rounding makes no frame without a tick */
     *out_report = (nook_soak_report){ .frames = 0 };
-    nook_result result = nook_play_window_open(root, &how, &window);
+    nook_result result = nook_soak_code_open(root, &how, &code);
     if (result != NOOK_OK)
         return result;
-    soak s = { .window = &window, .report = out_report, .random = desc->seed, .warm = desc->frames / 10 };
+    nook_play_window *window = nook_module_host_look(code.play.host).state;
+    soak s = { .code = &code, .window = window, .report = out_report, .random = desc->seed, .warm = desc->frames / 10 };
     nook_progress progress = nook_progress_begin("soak");
     double start = nook_clock_ms();
     for (uint32_t frame = 1; frame <= desc->frames && result == NOOK_OK; frame++) {
@@ -168,10 +179,11 @@ nook_result nook_soak_run(const char *root, const nook_soak_desc *desc, nook_soa
         nook_progress_update(&progress, (double)frame / desc->frames);
     }
     nook_progress_end(&progress);
-    out_report->returned += nook_session_look(window.play.session).returned;
+    out_report->returned += nook_session_look(window->play.session).returned;
+    out_report->exchanges = code.asked;
     out_report->seconds = (nook_clock_ms() - start) / 1000.0;
     free(s.visibility);
-    nook_result closed = nook_play_window_close(&window);
+    nook_result closed = nook_soak_code_close(&code);
     return result == NOOK_OK ? closed : result;
 }
 

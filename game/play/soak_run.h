@@ -1,6 +1,6 @@
 /**
- * soak_run.h - plays for very long and looks whether anything wears out: bodies thrown about, shaders reloaded, sizes changed, tries
- * begun anew. Nothing may grow, become no number, or leave the world.
+ * soak_run.h - plays for very long and looks whether anything wears out: bodies thrown about, shaders and code reloaded, sizes changed,
+ * tries begun anew. Nothing may grow, become no number, or leave the world.
  */
 #pragma once
 #include "game/play/play_window.h"
@@ -13,6 +13,8 @@ typedef struct nook_soak_desc {
 
 typedef struct nook_soak_report {
     uint32_t frames, throws, reloads, restarts, resizes;
+    uint32_t
+        exchanges; /**< Of code: of the game, of a technique, of all. 0 when no libraries were built beside the program. */
     uint32_t returned;  /**< Bodies that had left the world. */
     uint64_t pixels;    /**< Visibilities looked at. */
     uint64_t wrong;     /**< Of these: not a number, or outside of [0, 1]. */

@@ -1,6 +1,6 @@
 #include "tests/support/test_extremes.h"
 #include "game/extremes/extreme_run.h"
-#include "game/extremes/scratch_folder.h"
+#include "game/scratch_folder.h"
 #include "tests/support/test_gpu.h"
 #include <stdlib.h>
 

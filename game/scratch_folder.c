@@ -1,5 +1,5 @@
 #define _XOPEN_SOURCE 700 /* nftw */
-#include "game/extremes/scratch_folder.h"
+#include "game/scratch_folder.h"
 #include "engine/core/log.h"
 #include <errno.h>
 #include <ftw.h>
