@@ -15,6 +15,7 @@ static void copy_text(char *out, size_t capacity, const char *text, const char *
 static void set_up(nook_live *live, const nook_live_desc *desc)
 {
     live->stage = desc->stage;
+    live->shaders_reload = desc->shaders_reload;
     live->hovered = live->held = NOOK_LIVE_SPLITS_MAX;
     live->scale = 1.0;
     copy_text(live->settings_path, sizeof live->settings_path, desc->settings_path, "nook.settings");

@@ -18,7 +18,9 @@ typedef struct nook_live_desc {
     const nook_setting *setting; /**< Of the first view; NULL: the AO's first technique as it comes. */
     const char *settings_path;   /**< Where "save" writes; NULL: "nook.settings". Copied. */
     const char *pictures;        /**< Folder of the pictures that F12 takes; NULL: the working directory. Copied. */
-    const char *notes;           /**< Lines for the text beside them (level, seed); NULL: none. Copied. */
+    bool
+        shaders_reload; /**< What does not build may be mended: such a view goes without, and the frame does not fail. */
+    const char *notes;  /**< Lines for the text beside them (level, seed); NULL: none. Copied. */
 } nook_live_desc;
 
 /** @return NOOK_E_MEMORY, NOOK_E_DEVICE, NOOK_E_NOT_FOUND (a shader); *out_live is NULL then */

@@ -104,6 +104,7 @@ struct nook_live {
     double seconds;                   /**< Since the one before. */
     nook_overlay_taken taken;         /**< Of this frame's input. */
     bool view_recorded;               /**< The AO has read this G-buffer. */
+    bool shaders_reload;              /**< As in the description. */
     bool freeze;                      /**< Asked for: from the next draw on. */
     bool frozen;                      /**< The G-buffer and the world stay. */
     bool stale;                       /**< Something other than `views` has changed since the picture was made. */

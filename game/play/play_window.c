@@ -73,6 +73,7 @@ static nook_result make_live(nook_play_window *w, const char *pictures)
     char notes[1024 + 64];
     snprintf(notes, sizeof notes, "level = %s\nseed = %u", w->play.recording.level, w->play.seed);
     const nook_live_desc live = { .stage = &w->stage,
+                                  .shaders_reload = w->has_window,
                                   .setting = &w->settings.setting,
                                   .settings_path = *w->settings_path ? w->settings_path : NULL,
                                   .pictures = pictures,

@@ -2,8 +2,10 @@
 #include "engine/core/clock.h"
 #include "engine/core/log.h"
 #include "game/compare/camera.h"
+#include "game/live/live.h"
 #include "game/live/shader_reload.h"
 #include "game/stage.h"
+#include "game/techniques.h"
 #include "tests/support/file_tree.h"
 #include "tests/support/log_capture.h"
 #include "tests/support/test_gpu.h"
@@ -175,6 +177,39 @@ static void test_technique_whose_shader_never_was_good_works_once_it_is_mended(v
     draw(self, NOOK_VIEW_LIT, out);
 }
 
+static void test_view_whose_shaders_do_not_build_goes_without_them_where_they_may_be_mended(void **state)
+{
+    fixture *self = *state;
+    nook_live_desc desc = { .stage = &self->stage, .shaders_reload = true };
+    const nook_setting ssao = nook_setting_initial(nook_technique_find("ssao"));
+    nook_live *live;
+    picture open, broken, mended;
+    assert_int_equal(nook_live_create(&desc, &live), NOOK_OK);
+    nook_live_state(live)->views[0].open = true;
+    assert_int_equal(nook_live_draw(live, &self->camera), NOOK_OK);
+    nook_renderer_read(self->stage.renderer, open);
+    file_tree_edit(&self->tree, "shaders/ao/ssao.comp.glsl", "} params;", "} params");
+    nook_setting_print(&ssao, nook_live_state(live)->views[0].setting);
+    nook_live_state(live)->views[0].open = false;
+    assert_int_equal(nook_live_draw(live, &self->camera), NOOK_OK);
+    nook_renderer_read(self->stage.renderer, broken);
+    assert_true(same(open, broken));
+    nook_live_destroy(live);
+    desc.shaders_reload = false;
+    assert_int_equal(nook_live_create(&desc, &live), NOOK_OK);
+    nook_setting_print(&ssao, nook_live_state(live)->views[0].setting);
+    assert_int_equal(nook_live_draw(live, &self->camera), NOOK_E_DEVICE);
+    file_tree_edit(&self->tree, "shaders/ao/ssao.comp.glsl", "} params", "} params;");
+    nook_shader_reload_poll(self->reload);
+    while (nook_shader_reload_status(self->reload)->failed > 0)
+        wait_for_news(self);
+    nook_live_suspend(live);
+    assert_int_equal(nook_live_draw(live, &self->camera), NOOK_OK);
+    nook_renderer_read(self->stage.renderer, mended);
+    assert_false(same(open, mended));
+    nook_live_destroy(live);
+}
+
 static void test_params_with_a_row_more_are_refused_by_the_running_code(void **state)
 {
     fixture *self = *state;
@@ -230,6 +265,7 @@ int main(void)
         TEST(test_broken_include_keeps_the_picture_and_says_where_until_it_is_mended),
         TEST(test_shadow_map_that_was_kept_is_drawn_anew_by_a_reloaded_shader),
         TEST(test_technique_whose_shader_never_was_good_works_once_it_is_mended),
+        TEST(test_view_whose_shaders_do_not_build_goes_without_them_where_they_may_be_mended),
         TEST(test_params_with_a_row_more_are_refused_by_the_running_code),
         TEST(test_many_saves_leak_nothing),
         TEST(test_root_without_shaders_is_refused),
