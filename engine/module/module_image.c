@@ -24,8 +24,7 @@ static nook_result check_interface(const char *name, const nook_interface_view *
     nook_result result = nook_interface_read(image->path, &image->interface);
     nook_log_keep_errors(NULL, 0);
     if (result != NOOK_OK)
-        return nook_module_refuse(out_reason, result, "%s: what it was built against cannot be told: %s", name, why); see the log",
-                                  name);
+        return nook_module_refuse(out_reason, result, "%s: what it was built against cannot be told: %s", name, why);
     const nook_interface_view own = { image->interface, NULL, NULL };
     const char *other = nook_interface_difference(engine, &own, NOOK_INTERFACE_PUBLIC_TYPES | NOOK_INTERFACE_FUNCTIONS);
     if (other)
