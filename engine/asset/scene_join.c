@@ -68,6 +68,13 @@ static nook_result allocate(nook_scene *scene, const nook_scene_part *parts, uin
     return made ? NOOK_OK : NOOK_E_MEMORY;
 }
 
+/* Parts made by code may lack whole arrays, and memcpy takes no NULL. */
+static void copy(void *to, const void *from, size_t size)
+{
+    if (size > 0)
+        memcpy(to, from, size);
+}
+
 static void append_geometry(nook_scene *to, const nook_scene *from, const offsets *at)
 {
     for (uint32_t i = 0; i < from->primitive_count; i++) {
@@ -77,8 +84,8 @@ static void append_geometry(nook_scene *to, const nook_scene *from, const offset
         primitive->first_index += (uint32_t)to->index_count;
         primitive->material += at->material;
     }
-    memcpy(to->vertices + to->vertex_count, from->vertices, from->vertex_count * sizeof *to->vertices);
-    memcpy(to->indices + to->index_count, from->indices, from->index_count * sizeof *to->indices);
+    copy(to->vertices + to->vertex_count, from->vertices, from->vertex_count * sizeof *to->vertices);
+    copy(to->indices + to->index_count, from->indices, from->index_count * sizeof *to->indices);
     to->vertex_count += from->vertex_count;
     to->index_count += from->index_count;
 }
@@ -144,7 +151,7 @@ static nook_result append_nodes(nook_scene *to, const nook_scene *from, const of
         if (!name(from->cameras[i].name, &camera->name, &to->camera_count))
             return NOOK_E_MEMORY;
     }
-    memcpy(to->lights + to->light_count, from->lights, from->light_count * sizeof *to->lights);
+    copy(to->lights + to->light_count, from->lights, from->light_count * sizeof *to->lights);
     to->light_count += from->light_count;
     to->file_node_count += from->file_node_count;
     to->skin_count += from->skin_count;

@@ -188,6 +188,23 @@ static void test_a_library_brings_meshes_and_no_nodes(void **state)
     destroy(&p);
 }
 
+static void test_scenes_made_by_code_are_joined_as_well(void **state)
+{
+    (void)state;
+    static const uint32_t indices[] = { 0, 1, 2 };
+    nook_scene *made, *joined;
+    pair p = join(true, NULL, 0);
+    assert_int_equal(nook_scene_from_triangles("made", test_quad_positions, 4, indices, 3, &made), NOOK_OK);
+    const nook_scene_part parts[] = { { made, true }, { p.first, true } };
+    assert_int_equal(nook_scene_join("joined", parts, 2, NULL, 0, &joined), NOOK_OK);
+    assert_int_equal(joined->node_count, 5);
+    assert_int_equal(joined->light_count, 1);
+    assert_int_equal(joined->nodes[3].light, 0);
+    nook_scene_destroy(made);
+    nook_scene_destroy(joined);
+    destroy(&p);
+}
+
 static void test_instances_draw_the_mesh_of_their_node_where_they_are_put(void **state)
 {
     (void)state;
@@ -217,6 +234,7 @@ int main(void)
         cmocka_unit_test(test_materials_and_pictures_are_their_own_and_the_default_stays_last),
         cmocka_unit_test(test_lights_and_cameras_belong_to_their_nodes),
         cmocka_unit_test(test_a_library_brings_meshes_and_no_nodes),
+        cmocka_unit_test(test_scenes_made_by_code_are_joined_as_well),
         cmocka_unit_test(test_instances_draw_the_mesh_of_their_node_where_they_are_put),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
