@@ -167,7 +167,6 @@ static void test_gtao_follows_the_falloff_in_a_corner(void **state)
                 nook_form_wall(NOOK_FORM_COSINE, NOOK_FALLOFF_LINEAR, k), 0.025);
 }
 
-/* The wall of a pit of radius and depth 1 stands at 1 / cos e at elevation e; the two integrals up to e = 45 degrees, r = 4. */
 /* Walls 1 m off and 1 m high, reach 2.5 m: what one sample meets is at least 1 m away, where rho is 0.6, and counts the mean of its rho
    and of the receiver's own, 1: the exception that docs/techniques.md states. Closed form: 0.53 of what hard falloff counts. */
 static void test_gtao_of_one_step_counts_a_wall_between_its_own_falloff_and_the_mean_with_one(void **state)
@@ -348,6 +347,48 @@ static void test_thickness_opens_what_floats_and_keeps_to_the_range(void **state
     }
 }
 
+/*
+ * A funnel around the receiver, cut out of the cone of 45 degrees whose apex is there, over an open floor: whatever of it a slice meets
+ * raises the horizon to 45 degrees. It ends half-way to where the camera at 4 m sees r_max end, so that of two samples the second one
+ * meets the floor.
+ */
+static nook_fixture_view *look_into_funnel(void **state, double r_max)
+{
+    enum { WIDTH = 320, SIDES = 128 };
+    const double reach = r_max / sqrt(1 - r_max * r_max / 16), seen = 0.5 * reach, far = 4 * seen / (4 + seen),
+                 near = 0.3 * far;
+    nook_fixture_view *view = *state;
+    nook_fixture_mesh mesh = { 0 };
+    ao_view_resize(view, WIDTH, WIDTH);
+    ao_screen_look(view, (double[]){ 0, 0, 4 }, origin, 0.8, r_max);
+    ao_screen_add_floor(&mesh);
+    for (int i = 0; i < SIDES; i++) {
+        const double a = 2 * pi * i / SIDES, b = 2 * pi * (i + 1) / SIDES;
+        const double p[3] = { near * cos(a), near * sin(a), near }, q[3] = { near * cos(b), near * sin(b), near };
+        const double r[3] = { far * cos(a), far * sin(a), far }, t[3] = { far * cos(b), far * sin(b), far };
+        nook_fixture_add_triangle(&mesh, p, r, t);
+        nook_fixture_add_triangle(&mesh, p, t, q);
+    }
+    ao_screen_show(view, &mesh);
+    return view;
+}
+
+/* Of a slice that met the funnel the floor behind it lowers the horizon to mix(45, 90 degrees, thickness), and cos^2 of it stays. */
+static void test_thickness_blends_the_horizon_and_keeps_the_arc_that_is_left(void **state)
+{
+    nook_fixture_view *view = look_into_funnel(state, 1.0);
+    set(view, "gtao.steps", 2), set(view, "gtao.spacing", 1), set(view, "gtao.slices", 32);
+    const double solid = ao_screen_measure_centre(view, "gtao");
+    assert_true(solid > 0.2 && solid < 0.5); /* some slices have their first sample before the funnel */
+    for (int i = 1; i <= 4; i++) {
+        const double thickness = i / 4.0, horizon = pi / 4 + thickness * pi / 4;
+        set(view, "gtao.thickness", thickness);
+        expect_near("part that stays blocked", ao_screen_measure_centre(view, "gtao") / solid, 2 * pow(cos(horizon), 2),
+                    0.01);
+    }
+    set(view, "gtao.spacing", 2);
+}
+
 /* 512 turns a slice: past 65535 in all llvmpipe would stop without a word. */
 static void test_the_highest_numbers_of_samples_mean_the_same(void **state)
 {
@@ -388,6 +429,7 @@ int main(void)
         cmocka_unit_test_setup(test_half_and_quarter_resolution_mean_the_same, converge),
         cmocka_unit_test_setup(test_frames_repeat_by_their_index_and_differ_between_indices, converge),
         cmocka_unit_test_setup(test_thickness_opens_what_floats_and_keeps_to_the_range, converge),
+        cmocka_unit_test_setup(test_thickness_blends_the_horizon_and_keeps_the_arc_that_is_left, converge),
         cmocka_unit_test_setup(test_the_highest_numbers_of_samples_mean_the_same, converge),
         cmocka_unit_test_setup(test_hbao_ignores_what_is_below_its_bias, converge),
     };
