@@ -126,6 +126,7 @@ choose() { # ID VALUE: of a select
 test_charts_show_all_settings_and_pin_by_mouse_and_keyboard() {
     with_report pages
     equals "$(count '#chart_ms .sign') $(count '#chart_fetches .sign') $(count '#chart_ms .front')" '18 18 1'
+    assert_holds "$(browser_run "return document.querySelector('#front_note').textContent")" '18 settings' # truths are none
     equals "$(count '#pinned tbody tr') $(count '#chart_ms .ring')" '3 3' # as they come
     browser_keys '#chart_ms' "$arrow_left" # the dearest one
     assert_holds "$(browser_run "return document.querySelector('#tooltip').textContent")" 'volume rays=5'

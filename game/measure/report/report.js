@@ -103,9 +103,9 @@ function draw_chosen() {
 }
 
 function describe_choice() {
-  const most = choice.rows.length, fronts = find_front(choice.rows, row => row.ms, error_value).length;
+  const is_setting = row => row.technique !== reference_technique, most = choice.rows.filter(is_setting).length, fronts = find_front(choice.rows, row => row.ms, error_value).length;
   const over = choice.camera === "" ? " over all cameras (means; roots of mean squares; the worst camera for p99, max and memory)" : "";
-  const left_out = choice.camera === "" ? unique(rows.filter(row => row.scene === choice.scene && row.reach_key === choice.reach).map(row => row.setting)).length - most : 0;
+  const left_out = choice.camera === "" ? unique(rows.filter(row => is_setting(row) && row.scene === choice.scene && row.reach_key === choice.reach).map(row => row.setting)).length - most : 0;
   const missing = left_out ? ` ${left_out} more were not measured with every camera and are left out.` : "";
   return `${most} settings${over}; ${fronts} of them on the front in time. Less is better on both axes.${missing}`;
 }
