@@ -87,6 +87,32 @@ test_a_saved_settings_file_is_used_a_wrong_one_is_said_and_the_old_one_stays() {
         wait_for 30 log_has "settings taken over: ssao"' --settings "$tmp/live.settings"
 }
 
+test_a_saved_level_is_gone_on_in_a_wrong_one_is_said_and_the_old_one_stays() {
+    local level=$tmp/level/crate.level
+    mkdir -p "$tmp/level"
+    sed 's/^scene = .*/scene = crate.gltf/' tests/play/data/crate.level >"$level"
+    cp "$crate" "$tmp/level/crate.gltf"
+    export level
+    in_game '
+        press e; wait_for 30 title_has "carrying crate"
+        press e; wait_for 30 log_has "let go of crate"
+        import -window "$window" "$tmp/before.png"
+        sed "s/^task .*/task = Elsewhere/; s/^\[body crate\]/&\nat = -1 0 0/" "$level" >"$tmp/new"
+        mv "$tmp/new" "$level" # as editors save
+        wait_for 60 log_has "scene: .* reloaded"
+        differs() { import -window "$window" "$tmp/after.png"; ! cmp -s "$tmp/before.png" "$tmp/after.png"; }
+        wait_for 30 differs
+        echo "[body nothing]" >>"$level"
+        wait_for 60 log_has "crate.level:[0-9]*: "
+        has_red() { import -window "$window" "$tmp/wrong.png"; [ "$(red_in "$tmp/wrong.png")" = 1 ]; }
+        wait_for 30 has_red
+        sed -i "/^\[body nothing\]/d" "$level"
+        has_no_red() { ! has_red; }
+        wait_for 60 has_no_red'
+    [ "$(grep -c 'scene: .* reloaded' "$tmp/log")" -eq 2 ]
+    grep -q 'ends here' "$tmp/log" # what follows would not play back
+}
+
 test_without_a_display_one_line_says_what_to_give() {
     local said
     said=$(unset DISPLAY WAYLAND_DISPLAY; assert_fails 1 "$program" play "$level" --cache "$tmp/cache")
