@@ -27,22 +27,44 @@ static nook_result say(program_build *build, nook_result result, const char *lin
     return result;
 }
 
-/* What the driver says, with the names of files. @param source NULL: it cannot know lines, as when it links */
+static bool is_warning(const char *line, size_t length)
+{
+    static const char *const words[] = { "warning", "WARNING" };
+    for (size_t i = 0; i < NOOK_COUNT(words); i++) {
+        const char *found = strstr(line, words[i]);
+        if (found && (size_t)(found - line) < length)
+            return true;
+    }
+    return false;
+}
+
+/* Lines of the driver's that are warnings, or those that are not, with the names of files. @return false: there are none */
+static bool say_lines(program_build *build, const char *path, const nook_shader_source *source, const char *log,
+                      bool warnings)
+{
+    bool said = false;
+    for (const char *line = log; *line != '\0';) {
+        char text[LINE_CAPACITY];
+        size_t length = strcspn(line, "\n");
+        if (length > 0 && is_warning(line, length) == warnings) {
+            if (source)
+                nook_shader_source_translate(source, line, length, text, sizeof text);
+            else
+                snprintf(text, sizeof text, "%s: %.*s", path, (int)(length < 1024 ? length : 1024), line);
+            say(build, NOOK_E_DEVICE, text);
+            said = true;
+        }
+        line += length + (line[length] == '\n');
+    }
+    return said;
+}
+
+/* What the driver says, what is wrong before what is odd. @param source NULL: it cannot know lines, as when it links */
 static void say_driver(program_build *build, const char *path, const nook_shader_source *source, const char *log)
 {
     char text[LINE_CAPACITY];
-    bool said = false;
-    for (const char *line = log; *line != '\0';) {
-        size_t length = strcspn(line, "\n");
-        if (length > 0 && source)
-            nook_shader_source_translate(source, line, length, text, sizeof text);
-        else
-            snprintf(text, sizeof text, "%s: %.*s", path, (int)(length < 1024 ? length : 1024), line);
-        if (length > 0)
-            say(build, NOOK_E_DEVICE, text);
-        said = said || length > 0;
-        line += length + (line[length] == '\n');
-    }
+    bool said = say_lines(build, path, source, log, false);
+    said = say_lines(build, path, source, log, true) || said;
     snprintf(text, sizeof text, "%s: the driver refuses it and does not say why", path);
     if (!said)
         say(build, NOOK_E_DEVICE, text);

@@ -148,6 +148,16 @@ static void test_broken_include_keeps_the_old_program_and_names_file_and_line(vo
     assert_says(self, "no_such_name");
 }
 
+static void test_errors_are_told_before_warnings(void **state)
+{
+    fixture *self = *state;
+    file_tree_write(&self->tree, "shaders/nook/value.glsl",
+                    "uint value()\n{\n    uint unset;\n    uint v = unset;\n    return v + no_such_name;\n}\n");
+    assert_refused(self, "shaders/nook/value.glsl", "value.glsl:5: error: ");
+    assert_says(self, "warning");
+    assert_non_null(strstr(strstr(self->report.text, "value.glsl:5: error: "), "warning"));
+}
+
 static void test_mended_file_recovers(void **state)
 {
     fixture *self = *state;
@@ -480,6 +490,7 @@ int main(void)
         TEST(test_changed_shader_takes_the_place_of_the_old_one),
         TEST(test_changed_include_reloads_what_is_made_of_it_and_nothing_else),
         TEST(test_broken_include_keeps_the_old_program_and_names_file_and_line),
+        TEST(test_errors_are_told_before_warnings),
         TEST(test_mended_file_recovers),
         TEST(test_same_error_is_logged_once_and_stays_in_the_report),
         TEST(test_error_shared_by_programs_is_told_once),
