@@ -118,7 +118,7 @@ bool nook_compare_options_read(const nook_app *app, int argc, char **argv, nook_
             "turned 20\n"
             "degrees around what stands in the picture's middle (10 or 5 where that shows too little of the same).\n"
             "Window: drag left to orbit, right to pan, scroll to zoom; 1-9 choose the technique, 0 none, V the view,\n"
-            "C the camera; Esc quits.\n",
+            "C the camera, M what is shown, + and - views side by side; F1 lists all keys; Esc quits.\n",
     };
     nook_arguments arguments;
     if (!nook_arguments_read(&usage, argc, argv, &arguments, out_exit_code))

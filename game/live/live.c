@@ -22,6 +22,7 @@ static void set_up(nook_live *live, const nook_live_desc *desc)
     copy_text(live->pictures, sizeof live->pictures, desc->pictures, ".");
     copy_text(live->notes, sizeof live->notes, desc->notes, "");
     nook_live_views_reset(&live->views, "");
+    live_list_techniques(live, desc->techniques, desc->technique_count);
     live_take_over(live);
     memcpy(live->views.views[0].setting, live->remembered[0], sizeof live->remembered[0]);
     if (desc->setting)
@@ -80,10 +81,49 @@ bool nook_live_frozen(const nook_live *live)
     return live->freeze;
 }
 
+void nook_live_hold(nook_live *live, bool held)
+{
+    live->hold = held;
+}
+
+void nook_live_set_coarse(nook_live *live, bool coarse)
+{
+    live->stale = live->stale || live->coarse != coarse;
+    live->coarse = coarse;
+}
+
+void nook_live_set_timing(nook_live *live, bool timing)
+{
+    live->timing = timing;
+}
+
+double nook_live_ao_ms(const nook_live *live)
+{
+    return live->times.ms[LIVE_PASS_AO + live->views.active];
+}
+
+const char *nook_live_active_setting(const nook_live *live)
+{
+    const nook_live_view *view = &live->views.views[live->views.active];
+    return view->open ? "none" : view->setting;
+}
+
+uint32_t nook_live_active_technique(const nook_live *live)
+{
+    const nook_live_view *view = &live->views.views[live->views.active];
+    uint32_t number = view->open ? LIVE_TECHNIQUES : live_technique_number(live, view->setting);
+    return number < LIVE_TECHNIQUES ? number + 1 : 0;
+}
+
+void nook_live_redraw(nook_live *live)
+{
+    live->stale = true;
+}
+
 void nook_live_suspend(nook_live *live)
 {
     live_truth_stop(live);
-    live->frozen = false; /* the next draw freezes anew, if that is still asked for */
+    live->frozen = false;
     live->stale = true;
 }
 
@@ -106,8 +146,9 @@ void nook_live_message(nook_live *live, const char *from, const char *text)
         if (message->text[0] == '\0')
             place = message;
     }
-    if (!place)
+    if (!place || (strcmp(place->text, text) == 0 && strcmp(place->from, from) == 0))
         return;
+    live->message_count++;
     snprintf(place->from, sizeof place->from, "%s", from);
     snprintf(place->text, sizeof place->text, "%s", text);
 }

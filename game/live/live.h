@@ -8,14 +8,17 @@
  */
 #pragma once
 #include "engine/overlay/overlay.h"
+#include "game/live/capture.h"
 #include "game/live/live_views.h"
 #include "game/stage.h"
 
 typedef struct nook_live nook_live;
 
 typedef struct nook_live_desc {
-    nook_stage *stage;           /**< Filled; outlives it. Its AO's r_max and falloff are taken over. */
-    const nook_setting *setting; /**< Of the first view; NULL: the AO's first technique as it comes. */
+    nook_stage *stage;             /**< Filled; outlives it. Its AO's r_max and falloff are taken over. */
+    const char *const *techniques; /**< Names, in the order of the number keys; NULL: all of the AO's. Copied. */
+    uint32_t technique_count;
+    const nook_setting *setting; /**< Of the first view; NULL: the first technique as the AO is set. */
     const char *settings_path;   /**< Where "save" writes; NULL: "nook.settings". Copied. */
     const char *pictures;        /**< Folder of the pictures that F12 takes; NULL: the working directory. Copied. */
     bool
@@ -54,11 +57,11 @@ nook_result nook_live_present(nook_live *live, uint32_t width, uint32_t height);
 nook_result nook_live_picture(nook_live *live, uint32_t width, uint32_t height, uint8_t *out_rgb);
 
 /**
- * From now on every frame that is drawn goes into a folder of PNG files, or into a video (game/live/capture.h), at the window's size
- * as it is now. When it fails later it ends, with a line in the log.
- * @param rate  of a video, pictures a second; 0: 30 @return as nook_capture_open
+ * From now on every frame that is drawn goes into a folder of PNG files, or into a video, with the overlay over it. When it fails
+ * later it ends, with a line in the log.
+ * @param desc  game/live/capture.h; a size of 0: the window's as it is now @return as nook_capture_open
  */
-nook_result nook_live_capture(nook_live *live, const char *path, double rate);
+nook_result nook_live_capture(nook_live *live, const nook_capture_desc *desc);
 /** Ends it; waits until a video is whole. @return NOOK_E_IO */
 nook_result nook_live_capture_end(nook_live *live);
 
@@ -69,8 +72,27 @@ nook_result nook_live_capture_end(nook_live *live);
 void nook_live_freeze(nook_live *live, bool frozen);
 bool nook_live_frozen(const nook_live *live);
 /**
- * Ends the threads of the truth, and makes the next draw do everything anew: before code is reloaded or removed, before meshes or
- * volumes are removed from the AO, and after shaders have changed.
+ * Keeps the frame that the next draw makes, as freezing does, but traces its truth only while a view shows some: for hosts whose
+ * world stands still. While it holds, a draw costs next to nothing unless something has changed.
+ */
+void nook_live_hold(nook_live *live, bool held);
+/** While something moves: traces at quarter resolution, whatever the views' settings say. */
+void nook_live_set_coarse(nook_live *live, bool coarse);
+/** Times the passes of every frame, also while no panel shows them: on software GL each is waited for. */
+void nook_live_set_timing(nook_live *live, bool timing);
+/** Of the active view's AO in the last frame that was timed and recorded it, smoothed; 0: it has none. */
+double nook_live_ao_ms(const nook_live *live);
+/** "volume rays=4", or "none"; valid until the next input or draw. */
+const char *nook_live_active_setting(const nook_live *live);
+/** Its place among the techniques of the number keys, from 1; 0: none. */
+uint32_t nook_live_active_technique(const nook_live *live);
+/** Something that a held or frozen picture is made with has changed: shaders, lights. */
+void nook_live_redraw(nook_live *live);
+/** Whether the next draw and present would show anything else than the last ones. */
+bool nook_live_is_stale(const nook_live *live);
+/**
+ * Ends the threads of the truth; the next draw freezes anew if that is still asked for. Before code is exchanged, and before meshes
+ * or volumes are removed from the AO.
  */
 void nook_live_suspend(nook_live *live);
 

@@ -58,6 +58,8 @@ static nook_result record_view(nook_live *live, uint32_t view, const nook_settin
     nook_result result = bind_counts(live, view, &frame);
     if (result == NOOK_OK)
         result = live_apply(live, setting);
+    if (result == NOOK_OK && live->coarse)
+        result = nook_ao_parse_param(live->stage->ao, "ao.scale", "quarter");
     if (result == NOOK_OK)
         result = nook_ao_record(live->stage->ao, &frame);
     live_times_end(live, (live_pass)(LIVE_PASS_AO + view));
@@ -138,7 +140,7 @@ static nook_live_views state_of(const nook_live *live)
 static nook_result draw_views(nook_live *live, const nook_live_views *state)
 {
     bool changed = live->stale || memcmp(&live->drawn, state, sizeof *state) != 0;
-    bool news = live->frozen && live_truth_update(live);
+    bool news = live_truth_update(live);
     nook_result result = NOOK_OK;
     if (!changed && !news)
         return NOOK_OK;
@@ -151,28 +153,38 @@ static nook_result draw_views(nook_live *live, const nook_live_views *state)
         result = show_views(live);
     if (result != NOOK_OK)
         return result;
-    if (live->frozen)
-        live_truth_measure(live);
+    live_truth_measure(live);
     live->drawn = *state;
     live->stale = false;
     return NOOK_OK;
 }
 
-/* The camera's state follows what was asked for; the frame that is frozen is drawn once more. */
+/* The frame that is to be kept is drawn once more. */
 static nook_result follow(nook_live *live, const nook_camera *camera)
 {
     const nook_stage *stage = live->stage;
     bool resized = live->frame_width != stage->width || live->frame_height != stage->height;
-    bool begins = live->freeze && !live->frozen;
+    bool keep = live->freeze || live->hold, kept = keep && live->frozen;
     nook_result result = NOOK_OK;
-    if (live->frozen && !live->freeze)
+    if (!kept || resized) {
         live_truth_stop(live);
-    if (!live->frozen || !live->freeze || resized)
-        result = draw_gbuffer(live, live->frozen && live->freeze ? &live->camera : camera);
-    live->frozen = live->freeze;
-    if (result == NOOK_OK && live->frozen && (begins || resized))
-        live_truth_start(live);
+        result = draw_gbuffer(live, kept ? &live->camera : camera);
+    }
+    live->frozen = keep;
+    if (result == NOOK_OK)
+        live_truth_follow(live);
     return result;
+}
+
+bool nook_live_is_stale(const nook_live *live)
+{
+    bool keep = live->freeze || live->hold;
+    bool resized = live->frame_width != live->stage->width || live->frame_height != live->stage->height;
+    if (!keep || !live->frozen || resized || live->stale || live->picture_asked || live->capture)
+        return true;
+    nook_live_views state = state_of(live);
+    bool news = live->truth.started && nook_refine_look(live->truth.refine).rays != live->truth.rays;
+    return news || memcmp(&live->drawn, &state, sizeof state) != 0 || live_overlay_moves(live);
 }
 
 nook_result nook_live_draw(nook_live *live, const nook_camera *camera)

@@ -1,6 +1,5 @@
 /** live_internal.h - the state of nook_live, shared by the files of game/live. */
 #pragma once
-#include "game/live/capture.h"
 #include "game/live/history.h"
 #include "game/live/live.h"
 #include "game/settings/settings_file.h"
@@ -57,6 +56,13 @@ typedef struct live_targets {
     uint32_t vertex_array;                      /**< Empty: for full-screen triangles. */
 } live_targets;
 
+/** What decides how the overlay looks, beside panels: it is drawn again when it differs. Compared as bytes. */
+typedef struct live_seen {
+    double mouse[2], note_ms;
+    uint32_t hovered, active, messages;
+    bool help;
+} live_seen;
+
 /** What a view's visibility differs from the truth by, over its pixels with geometry. */
 typedef struct live_error {
     uint32_t pixels; /**< 0: not measured. */
@@ -67,6 +73,7 @@ typedef struct live_error {
 typedef struct live_truth {
     nook_refine *refine;      /**< NULL before the first freeze. */
     bool started;             /**< Since the freeze. */
+    bool failed;              /**< It cannot be: it is not tried again before the next frame. */
     double reach[3];          /**< r_max, falloff, tau that it is traced with. */
     nook_texture texture;     /**< R32F of the frame's size. */
     float *mean, *visibility; /**< Of that size: the truth, and what the views show. Owned. */
@@ -87,11 +94,16 @@ struct nook_live {
     nook_live_views first; /**< As they were at the beginning: what "reset all" goes back to. */
     nook_rectangle places[NOOK_LIVE_VIEWS_MAX];
     char settings_path[LIVE_PATH_SIZE], pictures[LIVE_PATH_SIZE], notes[LIVE_PATH_SIZE];
-    char remembered[LIVE_TECHNIQUES][NOOK_SETTING_TEXT_MAX]; /**< Of each of the AO's techniques: its last setting. */
+    char techniques[LIVE_TECHNIQUES][32];                    /**< That can be chosen, by name. */
+    uint32_t technique_count;                                /**< At least 1. */
+    char remembered[LIVE_TECHNIQUES][NOOK_SETTING_TEXT_MAX]; /**< Of each of them: its last setting. */
     live_message messages[NOOK_LIVE_MESSAGES_MAX];
     char note[LIVE_NOTE_SIZE];        /**< What was done last ("saved ..."), for some seconds. */
     double note_ms;                   /**< When it was. */
     bool help, panels;                /**< Shown. */
+    live_seen seen;                   /**< In the last frame. */
+    uint32_t message_count;           /**< Changes of messages so far. */
+    bool timing;                      /**< Passes are timed, whatever is shown. */
     bool times_shown;                 /**< In the last frame: passes are timed. */
     bool pointer;                     /**< The mouse is ours too in this frame. */
     bool overlay_begun, overlay_used; /**< In this frame. */
@@ -105,7 +117,9 @@ struct nook_live {
     nook_overlay_taken taken;         /**< Of this frame's input. */
     bool view_recorded;               /**< The AO has read this G-buffer. */
     bool shaders_reload;              /**< As in the description. */
-    bool freeze;                      /**< Asked for: from the next draw on. */
+    bool freeze;                      /**< Asked for: from the next draw on; with its truth. */
+    bool hold;                        /**< The same, by the host. */
+    bool coarse;                      /**< Quarter resolution. */
     bool frozen;                      /**< The G-buffer and the world stay. */
     bool stale;                       /**< Something other than `views` has changed since the picture was made. */
     nook_texture visibility[NOOK_LIVE_VIEWS_MAX]; /**< That the views show; id 0: all open. */
@@ -147,7 +161,13 @@ nook_result live_apply(nook_live *live, const nook_setting *setting);
 nook_result live_apply_shared(nook_live *live);
 /** Takes the shared numbers and every technique's parameters from the AO. */
 void live_take_over(nook_live *live);
-/** Chooses a technique for the active view by its number in the AO's list; its parameters as they come. */
+/** @param names  NULL: all of the AO's */
+void live_list_techniques(nook_live *live, const char *const *names, uint32_t count);
+/** NULL past the end. */
+const struct nook_ao_technique *live_technique(const nook_live *live, uint32_t number);
+/** Of a setting's text. @return LIVE_TECHNIQUES: it is none of the list */
+uint32_t live_technique_number(const nook_live *live, const char *setting);
+/** Chooses a technique for the active view by its number; its parameters are those it had last. Nothing past the end. */
 void live_choose_technique(nook_live *live, uint32_t number);
 nook_result live_save(nook_live *live);
 /** The active view's setting, r_max and falloff, as a file of settings holds them. */
@@ -158,6 +178,8 @@ nook_settings_file live_settings_of_active(nook_live *live);
 void live_truth_start(nook_live *live);
 void live_truth_stop(nook_live *live);
 void live_truth_release(nook_live *live);
+/** Starts or stops, as what is frozen and shown asks for. */
+void live_truth_follow(nook_live *live);
 /** Takes what has been traced since the last call. @return true: there is a new picture of it, or none any more */
 bool live_truth_update(nook_live *live);
 /** What each view that has visibility is off by. */
@@ -178,6 +200,8 @@ void live_probe(nook_live *live);
 void live_overlay_begin(nook_live *live);
 /** All widgets of the frame; decides by itself whether there are any. */
 void live_overlay_build(nook_live *live);
+/** Something over the picture changes by itself. */
+bool live_overlay_moves(const nook_live *live);
 /** A line at the bottom for some seconds. */
 void live_note(nook_live *live, const char *format, ...)
 #if defined(__GNUC__)

@@ -112,7 +112,7 @@ static void show_messages(nook_live *live, double width)
 static void show_help(nook_live *live)
 {
     const nook_overlay_panel panel = {
-        .title = "##help", .x = 8.0 * live->scale, .y = -8.0 * live->scale, .bare = true, .passive = true
+        .title = "##help", .x = -8.0 * live->scale, .y = -8.0 * live->scale, .bare = true, .passive = true
     };
     size_t count;
     const nook_live_key *keys = nook_live_help(&count);
@@ -130,10 +130,12 @@ static void show_frozen(nook_live *live, double height)
 {
     char text[128];
     double size[2];
+    const char *frozen = live->freeze ? "frozen (T): " : "";
     if (live->truth.rays > 0)
-        snprintf(text, sizeof text, "frozen (T): truth by %u rays, noise %.4f", live->truth.rays, live->truth.noise);
+        snprintf(text, sizeof text, "%struth by %u rays, noise %.4f", frozen, live->truth.rays, live->truth.noise);
     else
-        snprintf(text, sizeof text, "frozen (T)%s", live->truth.started ? ": the first rays are on their way" : "");
+        snprintf(text, sizeof text, "%s%s", frozen,
+                 live->truth.started ? "the first rays are on their way" : "no truth");
     nook_overlay_label_size(live->overlay, text, size);
     const double at[2] = { 8.0 * live->scale, height - 2.2 * size[1] - 8.0 * live->scale };
     nook_overlay_label(live->overlay, at, white, text);
@@ -142,6 +144,27 @@ static void show_frozen(nook_live *live, double height)
 static bool has_note(const nook_live *live)
 {
     return live->note[0] && nook_clock_ms() - live->note_ms < note_ms;
+}
+
+/* What decides how it looks, beside panels. */
+static live_seen seen_now(const nook_live *live)
+{
+    live_seen now;
+    memset(&now, 0, sizeof now);
+    now.help = live->help;
+    now.note_ms = has_note(live) ? live->note_ms : 0.0;
+    now.hovered = live->hovered;
+    now.active = live->views.active;
+    now.messages = live->message_count;
+    for (int i = 0; i < 2 && live->truth.started; i++)
+        now.mouse[i] = live->mouse[i]; /* the probe follows it */
+    return now;
+}
+
+bool live_overlay_moves(const nook_live *live)
+{
+    live_seen now = seen_now(live);
+    return live->panels || live->overlay_begun || memcmp(&now, &live->seen, sizeof now) != 0;
 }
 
 static void show_note(nook_live *live, double height)
@@ -162,8 +185,10 @@ static void show_panels(nook_live *live, double width)
 
 void live_overlay_build(nook_live *live)
 {
+    bool truth = live->freeze || live->truth.started;
+    bool views = live->views.count > 1 || live->panels || truth || live->views.views[0].mode != NOOK_LIVE_LIT;
     live->times_shown = false;
-    bool views = live->views.count > 1 || live->panels || live->frozen || live->views.views[0].mode != NOOK_LIVE_LIT;
+    live->seen = seen_now(live);
     if (!(views || live->help || has_messages(live) || has_note(live) || live->overlay_used)) {
         if (live->overlay_begun)
             nook_overlay_end(live->overlay);
@@ -179,7 +204,7 @@ void live_overlay_build(nook_live *live)
         show_borders(live, width, height);
         show_names(live, width, height);
     }
-    if (live->frozen)
+    if (truth)
         show_frozen(live, height);
     if (has_note(live))
         show_note(live, height);

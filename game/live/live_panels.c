@@ -77,25 +77,17 @@ static void edit_params(nook_live *live, nook_setting *setting, bool shared_ones
 /* "none|volume|ssao|..." */
 static void list_techniques(const nook_live *live, char out[CHOICES_SIZE])
 {
-    const nook_ao_technique *technique;
     size_t used = (size_t)snprintf(out, CHOICES_SIZE, "none");
-    for (uint32_t i = 0; i < LIVE_TECHNIQUES && (technique = nook_ao_technique_at(live->stage->ao, i)); i++) {
-        if (used < CHOICES_SIZE)
-            used += (size_t)snprintf(out + used, CHOICES_SIZE - used, "|%s", technique->name);
-    }
+    for (uint32_t i = 0; i < live->technique_count && used < CHOICES_SIZE; i++)
+        used += (size_t)snprintf(out + used, CHOICES_SIZE - used, "|%s", live->techniques[i]);
 }
 
 static void edit_technique(nook_live *live, const nook_setting *setting)
 {
     nook_live_view *view = &live->views.views[live->views.active];
-    const nook_ao_technique *technique;
     char choices[CHOICES_SIZE];
-    int chosen = 0;
+    int chosen = view->open ? 0 : (int)live_technique_number(live, view->setting) + 1;
     list_techniques(live, choices);
-    for (uint32_t i = 0; !view->open && (technique = nook_ao_technique_at(live->stage->ao, i)); i++) {
-        if (strcmp(technique->name, setting->technique->name) == 0)
-            chosen = (int)i + 1;
-    }
     if (nook_overlay_choice(live->overlay, "technique", &chosen, choices)) {
         if (chosen > 0)
             live_choose_technique(live, (uint32_t)chosen - 1);

@@ -190,19 +190,21 @@ void live_picture_by_key(nook_live *live)
 
 /* ---- Of every frame ----------------------------------------------------------------------------------------------- */
 
-nook_result nook_live_capture(nook_live *live, const char *path, double rate)
+nook_result nook_live_capture(nook_live *live, const nook_capture_desc *desc)
 {
     nook_live_capture_end(live);
-    const nook_capture_desc desc = { path, shown_width(live), shown_height(live), rate };
-    nook_result result = nook_capture_open(&desc, &live->capture);
+    nook_capture_desc sized = *desc;
+    if (sized.width == 0 || sized.height == 0)
+        sized.width = shown_width(live), sized.height = shown_height(live);
+    nook_result result = nook_capture_open(&sized, &live->capture);
     if (result != NOOK_OK)
         return result;
-    live->capture_size[0] = desc.width, live->capture_size[1] = desc.height;
-    live->captured = malloc((size_t)desc.width * desc.height * 3);
+    live->capture_size[0] = sized.width, live->capture_size[1] = sized.height;
+    live->captured = malloc((size_t)sized.width * sized.height * 3);
     if (live->captured)
         return NOOK_OK;
     nook_live_capture_end(live);
-    return nook_fail(NOOK_E_MEMORY, "%s: no memory for pictures of %u x %u", path, desc.width, desc.height);
+    return nook_fail(NOOK_E_MEMORY, "%s: no memory for pictures of %u x %u", desc->path, sized.width, sized.height);
 }
 
 nook_result nook_live_capture_end(nook_live *live)

@@ -1,6 +1,7 @@
 #include "engine/core/log.h"
 #include "game/live/live_internal.h"
 #include "game/settings/settings_file.h"
+#include "game/techniques.h"
 #include "modules/ao/technique.h"
 #include <stdio.h>
 #include <stdlib.h>
@@ -43,12 +44,26 @@ static nook_setting setting_in_use(const nook_ao *ao, const nook_ao_technique *t
     return setting;
 }
 
-void live_take_over(nook_live *live)
+void live_list_techniques(nook_live *live, const char *const *names, uint32_t count)
 {
     const nook_ao *ao = live->stage->ao;
     const nook_ao_technique *technique;
-    for (uint32_t i = 0; i < LIVE_TECHNIQUES && (technique = nook_ao_technique_at(ao, i)); i++) {
-        nook_setting setting = setting_in_use(ao, technique);
+    for (uint32_t i = 0; !names && i < LIVE_TECHNIQUES && (technique = nook_ao_technique_at(ao, i)); i++)
+        snprintf(live->techniques[live->technique_count++], sizeof live->techniques[0], "%s", technique->name);
+    for (uint32_t i = 0; i < count && i < LIVE_TECHNIQUES; i++)
+        snprintf(live->techniques[live->technique_count++], sizeof live->techniques[0], "%s", names[i]);
+}
+
+const nook_ao_technique *live_technique(const nook_live *live, uint32_t number)
+{
+    return number < live->technique_count ? nook_technique_find(live->techniques[number]) : NULL;
+}
+
+void live_take_over(nook_live *live)
+{
+    const nook_ao *ao = live->stage->ao;
+    for (uint32_t i = 0; i < live->technique_count; i++) {
+        nook_setting setting = setting_in_use(ao, live_technique(live, i));
         nook_setting_print(&setting, live->remembered[i]);
     }
     live->views.r_max = shortest(shared_value(ao, "ao.r_max"));
@@ -60,25 +75,24 @@ nook_setting live_setting_of(nook_live *live, uint32_t view)
 {
     nook_live_view *v = &live->views.views[view];
     char where[32], name[NOOK_SETTING_TEXT_MAX];
-    nook_setting setting = nook_setting_initial(nook_ao_technique_at(live->stage->ao, 0));
+    nook_setting setting = nook_setting_initial(live_technique(live, 0));
     snprintf(where, sizeof where, "view %u", view + 1);
     if (nook_setting_parse(where, v->setting, &setting) == NOOK_OK)
         return setting;
     snprintf(name, sizeof name, "%s", v->setting);
     name[strcspn(name, " ")] = '\0';
     if (nook_setting_parse(where, name, &setting) != NOOK_OK)
-        setting = nook_setting_initial(nook_ao_technique_at(live->stage->ao, 0));
+        setting = nook_setting_initial(live_technique(live, 0));
     live_set_setting(live, view, &setting);
     live_note(live, "view %u: its setting cannot be read any more; now %s", view + 1, v->setting);
     return setting;
 }
 
-/* @return LIVE_TECHNIQUES when there is none */
-static uint32_t technique_number(const nook_live *live, const char *name, size_t length)
+uint32_t live_technique_number(const nook_live *live, const char *setting)
 {
-    const nook_ao_technique *technique;
-    for (uint32_t i = 0; i < LIVE_TECHNIQUES && (technique = nook_ao_technique_at(live->stage->ao, i)); i++) {
-        if (strncmp(technique->name, name, length) == 0 && technique->name[length] == '\0')
+    size_t length = strcspn(setting, " ");
+    for (uint32_t i = 0; i < live->technique_count; i++) {
+        if (strncmp(live->techniques[i], setting, length) == 0 && live->techniques[i][length] == '\0')
             return i;
     }
     return LIVE_TECHNIQUES;
@@ -89,7 +103,7 @@ void live_set_setting(nook_live *live, uint32_t view, const nook_setting *settin
     nook_live_view *v = &live->views.views[view];
     memset(v->setting, 0, sizeof v->setting); /* states are compared as bytes */
     nook_setting_print(setting, v->setting);
-    uint32_t number = technique_number(live, setting->technique->name, strlen(setting->technique->name));
+    uint32_t number = live_technique_number(live, v->setting);
     if (number < LIVE_TECHNIQUES)
         memcpy(live->remembered[number], v->setting, sizeof v->setting);
 }
@@ -97,9 +111,9 @@ void live_set_setting(nook_live *live, uint32_t view, const nook_setting *settin
 void live_choose_technique(nook_live *live, uint32_t number)
 {
     nook_live_view *v = &live->views.views[live->views.active];
-    if (number >= LIVE_TECHNIQUES || !nook_ao_technique_at(live->stage->ao, number))
+    if (number >= live->technique_count)
         return;
-    uint32_t before = technique_number(live, v->setting, strcspn(v->setting, " "));
+    uint32_t before = live_technique_number(live, v->setting);
     if (before < LIVE_TECHNIQUES)
         memcpy(live->remembered[before], v->setting, sizeof v->setting);
     memcpy(v->setting, live->remembered[number], sizeof v->setting);

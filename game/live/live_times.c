@@ -39,12 +39,12 @@ void live_times_frame(nook_live *live)
 {
     live_times *times = &live->times;
     remember_frame(times);
-    for (uint32_t i = 0; i < LIVE_PASS_COUNT; i++) {
+    for (uint32_t i = 0; i < LIVE_PASS_COUNT && !live->frozen; i++) { /* a frame that stands still keeps its times */
         if (!times->done[i])
             times->ms[i] = 0.0;
         times->done[i] = false;
     }
-    times->measuring = live->times_shown;
+    times->measuring = live->times_shown || live->timing;
     if (times->measuring && nook_gpu_timer_trusted(live->stage->gpu))
         read_timers(live);
     else if (times->measuring)

@@ -74,13 +74,38 @@ void live_truth_start(nook_live *live)
     live_truth_stop(live);
     remember_reach(live);
     t->started = start(live) == NOOK_OK;
+    t->failed = !t->started;
     if (!t->started)
         live_note(live, "the truth cannot be traced; the log says why");
+}
+
+/* A view that needs it, or a frame that was frozen for it. */
+static bool wanted(nook_live *live)
+{
+    bool wanted = live->freeze;
+    for (uint32_t i = 0; i < live->views.count && live->frozen && !wanted; i++) {
+        const nook_live_view *v = &live->views.views[i];
+        wanted = v->mode == NOOK_LIVE_ERROR ||
+                 (!v->open && nook_live_mode_occludes(v->mode) && live_setting_of(live, i).technique->exact);
+    }
+    return wanted;
+}
+
+void live_truth_follow(nook_live *live)
+{
+    live_truth *t = &live->truth;
+    bool wants = wanted(live);
+    if (wants && !t->started && !t->failed)
+        live_truth_start(live);
+    else if (!wants && t->started)
+        live_truth_stop(live);
 }
 
 void live_truth_stop(nook_live *live)
 {
     live_truth *t = &live->truth;
+    live->stale = live->stale || t->started;
+    t->failed = false;
     if (t->refine)
         nook_refine_stop(t->refine);
     t->started = false;

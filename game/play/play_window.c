@@ -102,7 +102,8 @@ static nook_result begin(nook_play_window *w, const nook_play_window_desc *desc)
         return result;
     result = pass_time(w, desc->from_seconds);
     if (result == NOOK_OK && desc->capture)
-        result = nook_live_capture(w->live, desc->capture, captured_rate);
+        result =
+            nook_live_capture(w->live, &(nook_capture_desc){ desc->capture, desc->width, desc->height, captured_rate });
     if (result != NOOK_OK)
         return result;
     nook_session_place(w->play.session, 1.0);

@@ -2,6 +2,7 @@
 #include "engine/core/clock.h"
 #include "engine/core/log.h"
 #include "game/compare/camera.h"
+#include "game/live/live.h"
 #include "game/live/scene_reload.h"
 #include "game/live/shader_reload.h"
 #include "game/view/orbit.h"
@@ -13,78 +14,66 @@
 static const double still_after_ms = 200.0; /* from the last movement to the full picture */
 static const double turn_per_pixel = 0.005; /* radians */
 static const double fly_per_second = 0.25;  /* of the scene's diagonal */
-static const double rays_max = 64.0;        /* of the reference: a picture in seconds, not minutes */
-enum { SCALE_WHILE_MOVING = 2 /* quarter, modules/ao/params.def */ };
 
 typedef struct viewer {
     nook_stage *stage;
     const char *scene_name;
-    const nook_compare_choice *choice;
     nook_shader_reload *shaders; /* NULL: they cannot be watched */
     nook_scene_reload *scenes;   /* the same of the scene's files */
+    nook_live *live;
     nook_orbit orbit;
-    double diagonal, scale;             /* metres; ao.scale when nothing moves */
-    const nook_ao_technique *technique; /* NULL: none */
-    int key;                            /* that chose it */
-    nook_view view;
-    uint32_t camera; /* the next one that C goes to */
-    bool changed;    /* what is seen, or what darkens it, is not what was drawn */
-    bool reshade;    /* only what of it is shown has changed */
-    bool coarse;     /* the picture was made while moving */
-    bool occluded;   /* the picture has the technique in it */
-    double ms;       /* that the technique took */
+    double diagonal;   /* metres */
+    uint32_t camera;   /* the next one that C goes to */
+    bool moving;       /* the picture is coarse */
+    bool jumped;       /* to another camera */
+    char setting[128]; /* technique of the active view when it was last logged */
     double moved_ms, polled_ms;
 } viewer;
 
-/* What that number key chooses, or NULL: what is measured first, then what it is measured against. */
-static const nook_ao_technique *technique_of_key(const nook_compare_choice *choice, int key)
+/* Those of a choice in the order of the number keys: what is measured first, then what it is measured against. */
+static uint32_t list_techniques(const nook_compare_choice *choice, const char *out[NOOK_COMPARE_TECHNIQUES_MAX])
 {
+    uint32_t count = 0;
     for (uint32_t exact = 0; exact < 2; exact++) {
         for (uint32_t i = 0; i < choice->count; i++) {
-            if (choice->techniques[i]->exact == exact && --key == 0)
-                return choice->techniques[i];
+            if (choice->techniques[i]->exact == exact)
+                out[count++] = choice->techniques[i]->name;
         }
     }
-    return NULL;
+    return count;
 }
 
-static void choose_technique(viewer *v, int key)
+/* ---- Keys -------------------------------------------------------------------------------------------------------- */
+
+/* V walks through the buffers only: the picture, visibility, then the others as they are declared; M goes everywhere. */
+static void step_buffer(viewer *v, bool back)
 {
-    const nook_ao_technique *technique = technique_of_key(v->choice, key);
-    if (key > 0 && !technique)
+    nook_live_views *views = nook_live_state(v->live);
+    uint32_t *mode = &views->views[views->active].mode, count = nook_live_mode_count();
+    do
+        *mode = (*mode + (back ? count - 1 : 1)) % count;
+    while (*mode > NOOK_LIVE_VISIBILITY && *mode < NOOK_LIVE_BUFFERS);
+}
+
+static void tell_technique(viewer *v)
+{
+    char name[sizeof v->setting];
+    const char *setting = nook_live_active_setting(v->live);
+    snprintf(name, sizeof name, "%.*s", (int)strcspn(setting, " "), setting);
+    if (strcmp(name, v->setting) == 0)
         return;
-    v->technique = technique;
-    v->key = key;
-    v->changed = true;
-    nook_log_info("view: technique %s", technique ? technique->name : "none");
-}
-
-/* The views in the order of V: the picture, visibility, then the others as they are declared. */
-static nook_view step_view(nook_view view, int step)
-{
-    const int second = NOOK_VIEW_VISIBILITY;
-    int place = (int)view;
-    if (place == second)
-        place = 1;
-    else if (place > NOOK_VIEW_LIT && place < second)
-        place++;
-    place = (place + step + NOOK_VIEW_COUNT) % NOOK_VIEW_COUNT;
-    if (place == 1)
-        return NOOK_VIEW_VISIBILITY;
-    return (nook_view)(place > 1 && place <= second ? place - 1 : place);
+    memcpy(v->setting, name, sizeof name);
+    nook_log_info("view: technique %s", name);
 }
 
 static void read_keys(viewer *v, const nook_input *input)
 {
-    for (int key = 0; key <= 9; key++) {
-        if (input->pressed[NOOK_KEY_0 + key])
-            choose_technique(v, key);
-    }
-    if (input->pressed[NOOK_KEY_V] || input->pressed[NOOK_KEY_F]) {
-        v->view = step_view(v->view, input->down[NOOK_KEY_SHIFT] ? -1 : 1);
-        v->reshade = true;
-    }
+    if (input->pressed[NOOK_KEY_V] || input->pressed[NOOK_KEY_F])
+        step_buffer(v, input->down[NOOK_KEY_SHIFT]);
+    tell_technique(v);
 }
+
+/* ---- Camera ------------------------------------------------------------------------------------------------------ */
 
 /* In a room the hand turns the head; from outside it turns the scene. */
 static nook_orbit orbit_from(const viewer *v, const nook_camera *camera)
@@ -114,7 +103,7 @@ static void next_camera(viewer *v)
     v->camera++;
     nook_camera camera = nook_camera_from_scene(found);
     v->orbit = orbit_from(v, &camera);
-    v->changed = true;
+    v->jumped = true;
     nook_log_info("view: camera %s", found->name);
 }
 
@@ -161,58 +150,19 @@ static void move(viewer *v, const nook_input *input)
     double seconds = fmin(now - v->polled_ms, 250.0) / 1000.0;
     v->polled_ms = now;
     bool dragged = drag(v, input);
-    if (fly(v, input, seconds) || dragged) {
-        v->changed = true;
+    if (fly(v, input, seconds) || dragged)
         v->moved_ms = now;
-    }
     if (input->pressed[NOOK_KEY_C])
         next_camera(v);
-    if (v->coarse && now - v->moved_ms > still_after_ms)
-        v->changed = true;
-}
-
-/* Records the technique. While something moves the trace is coarse. */
-static nook_result occlude(viewer *v, bool moving)
-{
-    nook_ao *ao = v->stage->ao;
-    double scale = moving ? fmax(v->scale, SCALE_WHILE_MOVING) : v->scale;
-    nook_result result = nook_ao_set_param(ao, "ao.scale", scale);
-    if (result == NOOK_OK)
-        result = nook_ao_set_technique(ao, v->technique->name);
-    if (result != NOOK_OK)
-        return result;
-    nook_gpu_finish(v->stage->gpu);
-    double start = nook_clock_ms();
-    result = nook_stage_occlude(v->stage);
-    nook_gpu_finish(v->stage->gpu);
-    v->ms = nook_clock_ms() - start;
-    return result;
-}
-
-/* Whether what failed is a shader that was never good: saving a better one is seen, so the picture goes on without it. */
-static bool can_be_mended(const viewer *v)
-{
-    nook_shader_report report;
-    nook_gpu_shader_report(v->stage->gpu, &report);
-    return v->shaders && report.failed > 0;
-}
-
-/* Makes everything anew; the reference waits until nothing moves. */
-static nook_result redraw(viewer *v)
-{
-    bool moving = nook_clock_ms() - v->moved_ms < still_after_ms;
-    nook_camera camera = nook_orbit_camera(&v->orbit);
-    v->occluded = v->technique && !(moving && v->technique->exact);
-    v->coarse = moving;
-    v->changed = false;
-    nook_result result = nook_stage_begin(v->stage, &camera);
-    if (result == NOOK_OK && v->occluded && occlude(v, moving) != NOOK_OK) {
-        if (!can_be_mended(v))
-            return NOOK_E_DEVICE;
-        v->occluded = false;
+    v->moving = now - v->moved_ms < still_after_ms;
+    if (v->moved_ms == now || v->jumped) { /* what was frozen is not what is to be seen */
+        nook_live_freeze(v->live, false);
+        nook_live_hold(v->live, false);
     }
-    return result;
+    v->jumped = false;
 }
+
+/* ---- Picture ----------------------------------------------------------------------------------------------------- */
 
 /* What is wrong with shaders or a scene that were saved; "" when nothing. */
 static const char *reload_error(const viewer *v)
@@ -224,43 +174,40 @@ static const char *reload_error(const viewer *v)
 static void show_title(const viewer *v)
 {
     char title[512], cost[64] = "";
-    const char *error = reload_error(v), *keys = "0-9 technique, V view, C camera, Esc quits";
-    if (v->occluded)
-        snprintf(cost, sizeof cost, " %.1f ms", v->ms);
-    snprintf(title, sizeof title, "Nook - %s - %d %s%s - %s - %.*s", v->scene_name, v->key,
-             v->technique ? v->technique->name : "none", cost, nook_view_name(v->view),
+    const nook_live_views *views = nook_live_state(v->live);
+    const char *error = reload_error(v), *keys = "0-9 technique, V view, C camera, F1 all keys, Esc quits";
+    if (nook_live_ao_ms(v->live) > 0.0)
+        snprintf(cost, sizeof cost, " %.1f ms", nook_live_ao_ms(v->live));
+    snprintf(title, sizeof title, "Nook - %s - %u %s%s - %s - %.*s", v->scene_name, nook_live_active_technique(v->live),
+             v->setting, cost, nook_live_mode_name(views->views[views->active].mode),
              error[0] ? (int)strcspn(error, "\n") : (int)strlen(keys), error[0] ? error : keys);
     nook_context_set_title(v->stage->context, title);
 }
 
+/* While something moves the trace is coarse; what stands still is held, and the truth of it traced where a view shows some. */
 static nook_result draw(viewer *v, const nook_input *input)
 {
-    nook_result result = v->changed ? redraw(v) : NOOK_OK;
-    if (result != NOOK_OK)
-        return result;
-    result = nook_stage_finish(v->stage, v->occluded, v->view);
-    if (result != NOOK_OK)
-        return result;
-    nook_renderer_present(v->stage->renderer, input->width, input->height);
+    nook_camera camera = nook_orbit_camera(&v->orbit);
+    nook_live_set_coarse(v->live, v->moving);
+    nook_live_hold(v->live, !v->moving);
+    nook_result result = nook_live_draw(v->live, &camera);
+    if (result == NOOK_OK)
+        result = nook_live_present(v->live, input->width, input->height);
     nook_context_present(v->stage->context);
     show_title(v);
-    v->reshade = false;
-    return NOOK_OK;
+    return result;
 }
 
 /* Takes what was saved of shaders and of the scene. */
 static void reload(viewer *v)
 {
     if (v->shaders && nook_shader_reload_poll(v->shaders))
-        v->changed = true;
-    if (!v->scenes)
-        return;
-    uint32_t failures = nook_scene_reload_status_of(v->scenes)->failures;
-    if (nook_scene_reload_poll(v->scenes)) {
+        nook_live_suspend(v->live); /* what it holds was drawn by the old ones */
+    if (v->scenes && nook_scene_reload_poll(v->scenes)) {
+        nook_live_suspend(v->live); /* the truth reads its meshes */
         nook_scene_reload_swap(v->scenes, NULL);
-        v->changed = true;
     }
-    v->changed = v->changed || nook_scene_reload_status_of(v->scenes)->failures != failures;
+    nook_live_message(v->live, "reload", reload_error(v));
 }
 
 static void rest(void)
@@ -269,59 +216,71 @@ static void rest(void)
     nanosleep(&pause, NULL);
 }
 
+static nook_result frame(viewer *v, const nook_input *input)
+{
+    if (input->width == 0 || input->height == 0) { /* minimised */
+        rest();
+        return NOOK_OK;
+    }
+    nook_result result = NOOK_OK;
+    if (input->width != v->stage->width || input->height != v->stage->height)
+        result = nook_stage_set_size(v->stage, input->width, input->height);
+    reload(v);
+    if (result == NOOK_OK && (v->moving || nook_live_is_stale(v->live)))
+        return draw(v, input);
+    rest();
+    return result;
+}
+
 static nook_result loop(viewer *v)
 {
     for (;;) {
-        nook_input input;
+        nook_input input, left;
         nook_context_poll(v->stage->context, &input);
         if (input.close_requested || input.pressed[NOOK_KEY_ESCAPE])
             return NOOK_OK;
-        read_keys(v, &input);
-        move(v, &input);
-        reload(v);
-        nook_result result = NOOK_OK;
-        bool visible = input.width > 0 && input.height > 0;
-        if (visible && (input.width != v->stage->width || input.height != v->stage->height)) {
-            result = nook_stage_set_size(v->stage, input.width, input.height);
-            v->changed = true;
-        }
-        if (result == NOOK_OK && visible && (v->changed || v->reshade))
-            result = draw(v, &input);
-        else
-            rest();
+        nook_live_input(v->live, &input, true, &left);
+        read_keys(v, &left);
+        move(v, &left);
+        nook_result result = frame(v, &input);
         if (result != NOOK_OK)
             return result;
     }
 }
 
+static nook_result open_live(viewer *v, const nook_compare_choice *choice)
+{
+    const char *techniques[NOOK_COMPARE_TECHNIQUES_MAX];
+    const nook_live_desc desc = { .stage = v->stage,
+                                  .shaders_reload = true,
+                                  .techniques = techniques,
+                                  .technique_count = list_techniques(choice, techniques) };
+    nook_result result = nook_live_create(&desc, &v->live);
+    if (result == NOOK_OK)
+        nook_live_set_timing(v->live, true);
+    return result;
+}
+
 nook_result nook_view_run(nook_stage *stage, const nook_camera *camera, const nook_compare_choice *choice,
                           const char *scene_name)
 {
-    viewer v = {
-        .stage = stage, .scene_name = scene_name, .choice = choice, .changed = true, .polled_ms = nook_clock_ms()
-    };
-    double rays;
+    viewer v = { .stage = stage, .scene_name = scene_name, .polled_ms = nook_clock_ms() };
     v.diagonal = nook_scene_diagonal(stage->scene);
     v.moved_ms = v.polled_ms - still_after_ms;
     v.orbit = orbit_from(&v, camera);
     v.camera = camera_after(stage->scene, camera);
-    nook_result result = nook_ao_get_param(stage->ao, "ao.scale", &v.scale);
-    if (result == NOOK_OK)
-        result = nook_ao_get_param(stage->ao, "reference.rays", &rays);
-    if (result == NOOK_OK)
-        result = nook_ao_set_param(stage->ao, "reference.rays", fmin(rays, rays_max));
+    nook_result result = open_live(&v, choice);
     if (result != NOOK_OK)
         return result;
     if (nook_shader_reload_create(stage->gpu, &v.shaders) != NOOK_OK)
         nook_log_warning("view: shaders that change are not seen until the next start");
     if (nook_scene_reload_create(stage, NULL, &v.scenes) != NOOK_OK)
         nook_log_warning("view: a scene that changes is not seen until the next start");
-    choose_technique(&v, 1);
+    tell_technique(&v);
     nook_context_show(stage->context);
     result = loop(&v);
     nook_scene_reload_destroy(v.scenes);
     nook_shader_reload_destroy(v.shaders);
-    nook_ao_set_param(stage->ao, "reference.rays", rays);
-    nook_ao_set_param(stage->ao, "ao.scale", v.scale);
+    nook_live_destroy(v.live);
     return result;
 }

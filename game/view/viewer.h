@@ -4,7 +4,7 @@
 
 /**
  * Shows the stage in its window until it is closed or Esc is pressed. The keys are listed by `compare --help`.
- * Resizes the stage; leaves the AO parameters as they were.
+ * Resizes the stage; the AO is set as the views are afterwards.
  * @param choice      the techniques that the number keys choose from: in its order, the exact ones last
  * @param scene_name  for the title
  * @return why it had to stop

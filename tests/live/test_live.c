@@ -621,7 +621,7 @@ static void test_captured_frames_are_what_is_seen(void **state)
     char folder[4096], png[4200];
     nook_scratch_path(folder, sizeof folder, "captured");
     step(f);
-    assert_int_equal(nook_live_capture(f->live, folder, 0.0), NOOK_OK);
+    assert_int_equal(nook_live_capture(f->live, &(nook_capture_desc){ .path = folder }), NOOK_OK);
     step(f);
     press(f, NOOK_KEY_2);
     take_picture(f);

@@ -10,15 +10,15 @@ test_saved_shader_is_seen_broken_one_is_in_the_title_and_the_mended_one_is_seen(
         shader=$root/shaders/render/tone.glsl include=$root/shaders/render/frame.glsl
         press 0; wait_for 30 title_has "0 none"
         sed -i "/^vec3 srgb_encode/,/{/ s/{/{ return vec3(1.0, 0.0, 1.0);/" "$shader"       # writes a new file, renames it
-        wait_for 30 has_pixel 10 10 FF00FF
+        wait_for 30 has_pixel 160 190 FF00FF
         title_has "0-9 technique"
         printf "float broken = no_such_name;\n" >>"$include"                               # in place, an include
         line=$(wc -l <"$include")
         wait_for 30 title_has "shaders/render/frame.glsl:$line: error: "
-        has_pixel 10 10 FF00FF
+        has_pixel 160 190 FF00FF
         sed -i "/no_such_name/d" "$include"
         sed -i "s/vec3(1.0, 0.0, 1.0)/vec3(0.0, 1.0, 0.0)/" "$shader"
-        wait_for 30 has_pixel 10 10 00FF00
+        wait_for 30 has_pixel 160 190 00FF00
         wait_for 30 title_has "0-9 technique"'
     grep -q 'shaders/render/frame.glsl:.*no_such_name' "$tmp/log"
     grep -q 'shaders: .* reloaded, .* (shaders/render/tone.glsl' "$tmp/log"
