@@ -1,11 +1,10 @@
 /* Cameras and lights: they sit on nodes, and only the place and the direction of those matter to them. */
 #include "engine/asset/gltf_internal.h"
 #include "engine/asset/scene_internal.h"
+#include "engine/core/angle.h"
 #include "engine/core/vector.h"
 #include <math.h>
 #include <string.h>
-
-static const double pi = 3.14159265358979323846;
 
 /* The same place and view direction without scale, shear and mirroring; axis-aligned when there is no direction. */
 static nook_matrix without_scale(const nook_matrix *m)
@@ -27,14 +26,14 @@ static nook_result attach_camera(nook_gltf *gltf, const nook_gltf_node *from, co
 {
     nook_scene *scene = gltf->scene;
     const nook_gltf_camera *camera = &gltf->model->cameras[from->camera];
-    bool usable = camera->fov_y_radians > 0.0 && camera->fov_y_radians < pi && camera->z_near > 0.0;
+    bool usable = camera->fov_y_radians > 0.0 && camera->fov_y_radians < NOOK_PI && camera->z_near > 0.0;
     if (camera->perspective && !usable)
         nook_scene_warn(scene,
                         "%s: cameras[%u] has a field of view of %g and a near plane at %g; 60 degrees and 0.01 m"
                         " are used",
                         gltf->path, from->camera, camera->fov_y_radians, camera->z_near);
     nook_scene_camera *out = &scene->cameras[scene->camera_count];
-    *out = (nook_scene_camera){ .fov_y_radians = usable ? camera->fov_y_radians : pi / 3.0,
+    *out = (nook_scene_camera){ .fov_y_radians = usable ? camera->fov_y_radians : NOOK_PI / 3.0,
                                 .z_near = usable ? camera->z_near : 0.01,
                                 .perspective = camera->perspective,
                                 .world_from_view = without_scale(world) };
@@ -62,7 +61,7 @@ static void attach_light(nook_gltf *gltf, const nook_gltf_node *from, const nook
         nook_scene_warn(scene, "%s: a light of the unknown type '%.20s' is left out", gltf->path, light->type);
         return;
     }
-    double outer = fmin(positive(light->outer_cone), pi / 2.0);
+    double outer = fmin(positive(light->outer_cone), NOOK_PI / 2.0);
     nook_light *out = &scene->lights[scene->light_count];
     *out = (nook_light){ .kind = (nook_light_kind)kind,
                          .intensity = positive(light->intensity),

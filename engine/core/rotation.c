@@ -1,4 +1,5 @@
 #include "engine/core/rotation.h"
+#include "engine/core/angle.h"
 #include "engine/core/vector.h"
 #include <math.h>
 
@@ -53,11 +54,10 @@ void nook_rotation_about(const double axis[3], double radians, double out[4])
 
 void nook_rotation_from_degrees(const double degrees[3], double out[4])
 {
-    static const double degree = 3.14159265358979323846 / 180.0;
     static const double axes[3][3] = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
     double turn[4], sum[4] = { 0, 0, 0, 1 };
     for (int i = 0; i < 3; i++) {
-        nook_rotation_about(axes[i], degrees[i] * degree, turn);
+        nook_rotation_about(axes[i], degrees[i] * NOOK_DEGREE, turn);
         nook_rotation_multiply(turn, sum, sum);
     }
     normalize(sum, out);

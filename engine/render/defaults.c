@@ -1,4 +1,5 @@
 /* Cameras and lights for scenes that name none, and those of scenes that do. */
+#include "engine/core/angle.h"
 #include "engine/core/log.h"
 #include "engine/core/vector.h"
 #include "engine/render/internal.h"
@@ -95,7 +96,7 @@ nook_lights nook_lights_from_scene(const nook_scene *scene)
     if (left_out > 0)
         nook_log_warning("%s: %u lights left out; a frame takes one directional and %u others", scene->path, left_out,
                          NOOK_MAX_POINT_LIGHTS);
-    lights.exposure = 3.14159265f / key;
+    lights.exposure = (float)NOOK_PI / key;
     for (int i = 0; i < 3; i++) {
         lights.ambient_top[i] = 0.5f * sky_top[i] / lights.exposure;
         lights.ambient_bottom[i] = 0.5f * sky_bottom[i] / lights.exposure;

@@ -1,4 +1,5 @@
 #include "game/cameras/places.h"
+#include "engine/core/angle.h"
 #include "engine/core/log.h"
 #include "engine/core/vector.h"
 #include "game/compare/auto_camera.h"
@@ -8,8 +9,6 @@
 #include <string.h>
 
 enum { DIMENSIONS = 6, DIRECTIONS = 16, OPEN_POINTS = 256, EXPLORING_TRIALS = 8192 };
-static const double pi = 3.14159265358979323846;
-static const double degree = 3.14159265358979323846 / 180.0;
 static const double up[3] = { 0.0, 1.0, 0.0 }, down[3] = { 0.0, -1.0, 0.0 };
 
 /*
@@ -60,8 +59,8 @@ static bool try_camera(const nook_place *place, const double u[DIMENSIONS], nook
     double towards[3] = { eye[0] - from[0], eye[1] - from[1], eye[2] - from[2] };
     if (nook_vector_length(towards) > 0.0 && nook_rays_cast(place->rays, from, towards).distance < 1.2)
         return false; /* through a wall, or up to one */
-    double yaw = atan2(-forward[0], -forward[2]) + between(-55.0, 55.0, u[0]) * degree;
-    double pitch = asin(fmax(-1.0, fmin(1.0, forward[1]))) + between(-6.0, 6.0, u[4]) * degree;
+    double yaw = atan2(-forward[0], -forward[2]) + between(-55.0, 55.0, u[0]) * NOOK_DEGREE;
+    double pitch = asin(fmax(-1.0, fmin(1.0, forward[1]))) + between(-6.0, 6.0, u[4]) * NOOK_DEGREE;
     return look(eye, yaw, fmax(-1.4, fmin(1.4, pitch)), &place->camera, out);
 }
 
@@ -72,7 +71,7 @@ static bool is_inside(const nook_place *place, const double point[3])
 {
     int walls = 0, backs = 0;
     for (int i = 0; i < DIRECTIONS; i++) {
-        double angle = 2.0 * pi * i / DIRECTIONS;
+        double angle = 2.0 * NOOK_PI * i / DIRECTIONS;
         const double direction[3] = { cos(angle), 0.0, sin(angle) };
         nook_view_hit hit = nook_rays_cast(place->rays, point, direction);
         if (hit.distance < 0.008 * place->diagonal)
@@ -153,7 +152,7 @@ static bool try_room(const nook_place *place, const double u[DIMENSIONS], nook_c
     double eye[3];
     if (!stand_somewhere(place, u, eye) || !sees_any(place, eye))
         return false;
-    return look(eye, 2.0 * pi * u[2], between(-12.0, 8.0, u[5]) * degree, &place->camera, out);
+    return look(eye, 2.0 * NOOK_PI * u[2], between(-12.0, 8.0, u[5]) * NOOK_DEGREE, &place->camera, out);
 }
 
 /* ---- Around an object -------------------------------------------------------------------------------------------- */
@@ -171,7 +170,7 @@ static bool try_around(const nook_place *place, const double u[DIMENSIONS], nook
     }
     nook_vector_add_scaled(framed, -1.0, centre, framed);
     double distance = nook_vector_length(framed) * between(0.6, 1.0, u[2]);
-    double elevation = between(4.0, 50.0, u[1]) * degree, azimuth = 2.0 * pi * u[0];
+    double elevation = between(4.0, 50.0, u[1]) * NOOK_DEGREE, azimuth = 2.0 * NOOK_PI * u[0];
     const double away[3] = { sin(azimuth) * cos(elevation), sin(elevation), cos(azimuth) * cos(elevation) };
     nook_vector_add_scaled(centre, distance, away, eye);
     return nook_camera_look(eye, aim, place->camera.fov_y_radians, place->camera.z_near, out) == NOOK_OK;

@@ -1,4 +1,5 @@
 #include "game/compare/auto_camera.h"
+#include "engine/core/angle.h"
 #include "engine/core/vector.h"
 #include "game/compare/camera.h"
 #include <math.h>
@@ -7,7 +8,6 @@ enum { DIRECTIONS = 16, PROBES = 9, GRID = 7 };
 static const double backs_tolerated = 0.1;
 /* In pictures longer than that the scene would be a dot: they show a strip of a picture that is not. */
 static const double aspect_max = 4.0;
-static const double pi = 3.14159265358979323846;
 
 /* Whether a ray meets a box nearer than `limit`. Axes that it does not move along give infinities of the right signs. */
 static bool meets_box(const float low[3], const float high[3], const double origin[3], const double direction[3],
@@ -169,7 +169,7 @@ static double hidden_fraction(const nook_scene *scene, const nook_camera *view, 
 
 static void level_direction(int index, double out[3])
 {
-    double angle = 2.0 * pi * index / DIRECTIONS;
+    double angle = 2.0 * NOOK_PI * index / DIRECTIONS;
     out[0] = cos(angle), out[1] = 0.0, out[2] = sin(angle);
 }
 
@@ -221,5 +221,5 @@ bool nook_camera_inside(const nook_scene *scene, const nook_camera *outside, noo
     nook_vector_add_scaled(centre, 0.5 * free_run[best], ahead, target);
     target[0] -= 0.06 * diagonal * ahead[2];
     target[2] += 0.06 * diagonal * ahead[0];
-    return nook_camera_look(eye, target, 60.0 * pi / 180.0, outside->z_near, out_camera) == NOOK_OK;
+    return nook_camera_look(eye, target, 60.0 * NOOK_PI / 180.0, outside->z_near, out_camera) == NOOK_OK;
 }

@@ -1,4 +1,5 @@
 #include "game/compare/camera.h"
+#include "engine/core/angle.h"
 #include "engine/core/log.h"
 #include "engine/core/vector.h"
 #include "game/compare/auto_camera.h"
@@ -8,7 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double degree = 3.14159265358979323846 / 180.0;
 /* Of the scene's diagonal. Reversed float depth keeps its precision whatever the near plane, so it may be tiny. */
 static const double near_fraction = 1e-4;
 
@@ -69,7 +69,7 @@ static nook_result camera_from_numbers(const double numbers[7], double z_near, n
     double fov = numbers[6];
     if (!(fov >= 1.0 && fov <= 170.0))
         return nook_fail(NOOK_E_RANGE, "camera: a field of view of %g degrees; give 1 to 170", fov);
-    return nook_camera_look(numbers, numbers + 3, fov * degree, z_near, out_camera);
+    return nook_camera_look(numbers, numbers + 3, fov * NOOK_DEGREE, z_near, out_camera);
 }
 
 nook_result nook_camera_check(const char *text)

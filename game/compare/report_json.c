@@ -1,3 +1,4 @@
+#include "engine/core/angle.h"
 #include "engine/core/json.h"
 #include "engine/core/log.h"
 #include "game/compare/report.h"
@@ -88,7 +89,7 @@ static void write_camera(nook_json *json, const nook_report *report)
     nook_json_key(json, "camera");
     nook_json_begin_object(json);
     nook_json_member_string(json, "name", report->comparison->camera);
-    nook_json_member_number(json, "fov_y_degrees", camera->fov_y_radians * 180.0 / 3.14159265358979323846);
+    nook_json_member_number(json, "fov_y_degrees", camera->fov_y_radians * 180.0 / NOOK_PI);
     nook_json_member_number(json, "z_near", camera->z_near);
     nook_json_key(json, "view_from_world");
     nook_json_numbers(json, camera->view_from_world.m, 16);

@@ -1,4 +1,5 @@
 #include "game/compare/second_view.h"
+#include "engine/core/angle.h"
 #include "engine/core/log.h"
 #include "game/compare/run.h"
 #include "game/compare/surfaces.h"
@@ -8,11 +9,10 @@
 
 static const double turns_degrees[] = { 20.0, 10.0, 5.0 };
 static const double enough_shared = 0.25; /* of the pixels with geometry */
-static const double radians_per_degree = 3.14159265358979323846 / 180.0;
 
 nook_camera nook_camera_turn(const nook_camera *camera, double distance, double degrees)
 {
-    double half = -0.5 * degrees * radians_per_degree;
+    double half = -0.5 * degrees * NOOK_DEGREE;
     const double rotation[4] = { 0.0, sin(half), 0.0, cos(half) };
     const double none[3] = { 0.0, 0.0, 0.0 }, one[3] = { 1.0, 1.0, 1.0 };
     nook_matrix turn = nook_matrix_compose(none, rotation, one);

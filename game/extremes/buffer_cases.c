@@ -1,4 +1,5 @@
 /* The formats of depth and normals that hosts have, and what each costs. */
+#include "engine/core/angle.h"
 #include "game/extremes/buffer_internal.h"
 #include "game/extremes/edge_pictures.h"
 #include "game/extremes/groups.h"
@@ -8,7 +9,6 @@
 #include <string.h>
 
 static const double R_MAX = 0.8, FARTHEST = 6.5; /* of the usual scene: its reach, and where its farthest wall is */
-static const double PI = 3.14159265358979323846;
 
 static uint32_t side_of(const nook_extremes *extremes)
 {
@@ -86,7 +86,7 @@ static double cost_of_a_ray(const nook_extremes *extremes)
  */
 static double cost_of_distance(double off)
 {
-    return 2.0 / (PI * R_MAX) * 2.0 * off;
+    return 2.0 / (NOOK_PI * R_MAX) * 2.0 * off;
 }
 
 /** @param step  of device depth, about 1 */
@@ -168,7 +168,8 @@ static nook_result run_8(const nook_extremes *extremes, nook_extreme_found *out_
 {
     double up[3];
     nook_fixture_decode_normal((float[2]){ 128.0f / 255.0f, 128.0f / 255.0f }, up); /* the code nearest to +z */
-    nook_extreme_state(out_found, 1.0 / 3.0, 0.02, acos(up[2]) / PI * 180.0, "degrees that a level floor leans by");
+    nook_extreme_state(out_found, 1.0 / 3.0, 0.02, acos(up[2]) / NOOK_PI * 180.0,
+                       "degrees that a level floor leans by");
     out_found->bound = cost_of_normals(2.0 / 255.0);
     return compare_and_state(extremes, &(nook_edge_scene_desc){ .normal_format = GL_RGBA8 }, 0.007, out_found);
 }

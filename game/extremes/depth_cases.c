@@ -5,17 +5,6 @@
 #include <math.h>
 #include <stdio.h>
 
-static nook_result record_all(nook_edge_scene *scene, nook_extreme_found *found, const char *what)
-{
-    size_t count;
-    const nook_ao_technique *const *techniques = nook_techniques(&count);
-    nook_result result = NOOK_OK;
-    for (size_t i = 0; result == NOOK_OK && i < count; i++)
-        result = nook_edge_scene_record(scene, techniques[i]->name, found, "%s", what);
-    nook_extreme_worst(found, (double)found->outside, "%s", what);
-    return result;
-}
-
 /* ---- Rubbish ---- */
 
 static void spoil(nook_edge_scene *scene)
@@ -56,10 +45,10 @@ nook_result nook_surface_run_rubbish_depths(const nook_extremes *extremes, nook_
             break;
         scene.view->without_normals = k % 2 == 1;
         spoil(&scene);
-        result = record_all(&scene, out_found, "rubbish among depths");
+        result = nook_edge_scene_record_all(&scene, out_found, "rubbish among depths");
         if (result == NOOK_OK && !desc.normal_z) {
             draw_any_distance(&scene);
-            result = record_all(&scene, out_found, "distances of 1e-6 to 1e15 side by side");
+            result = nook_edge_scene_record_all(&scene, out_found, "distances of 1e-6 to 1e15 side by side");
         }
         nook_edge_scene_free(&scene);
         nook_extreme_progress(extremes, (double)(k + 1) / (2.0 * NOOK_COUNT(kinds)));
@@ -97,17 +86,16 @@ static nook_result look_at_nothing(nook_edge_scene *scene, const char *technique
 
 nook_result nook_surface_run_background(const nook_extremes *extremes, nook_extreme_found *out_found)
 {
-    static const char *const scales[] = { "full", "half", "quarter" };
     size_t count;
     const nook_ao_technique *const *techniques = nook_techniques(&count);
     nook_edge_scene scene;
     const nook_edge_scene_desc desc = { .width = 24, .height = 24, .resolution = 24 };
     nook_result result = nook_edge_scene_make(extremes, &desc, &scene);
     out_found->bound = 0.0;
-    for (size_t i = 0; result == NOOK_OK && i < count * NOOK_COUNT(scales); i++) {
-        result = nook_ao_parse_param(scene.view->ao, "ao.scale", scales[i % NOOK_COUNT(scales)]);
+    for (size_t i = 0; result == NOOK_OK && i < count * NOOK_FIXTURE_SCALES; i++) {
+        result = nook_ao_parse_param(scene.view->ao, "ao.scale", nook_fixture_scales[i % NOOK_FIXTURE_SCALES]);
         if (result == NOOK_OK)
-            result = look_at_nothing(&scene, techniques[i / NOOK_COUNT(scales)]->name, out_found);
+            result = look_at_nothing(&scene, techniques[i / NOOK_FIXTURE_SCALES]->name, out_found);
     }
     nook_edge_scene_free(&scene);
     return result;
@@ -117,17 +105,16 @@ nook_result nook_surface_run_background(const nook_extremes *extremes, nook_extr
 
 static nook_result record_size(nook_edge_scene *scene, nook_extreme_found *found)
 {
-    static const char *const scales[] = { "full", "half", "quarter" }, *const filters[] = { "none", "disc", "tile" };
     nook_result result = NOOK_OK;
-    for (size_t i = 0; result == NOOK_OK && i < NOOK_COUNT(scales) * NOOK_COUNT(filters); i++) {
+    for (size_t i = 0; result == NOOK_OK && i < NOOK_FIXTURE_SCALES * NOOK_FIXTURE_FILTERS; i++) {
         char what[64];
         snprintf(what, sizeof what, "%u x %u pixels, scale %s, filter %s", scene->view->width, scene->view->height,
-                 scales[i % 3], filters[i / 3]);
-        result = nook_ao_parse_param(scene->view->ao, "ao.scale", scales[i % 3]);
+                 nook_fixture_scales[i % 3], nook_fixture_filters[i / 3]);
+        result = nook_ao_parse_param(scene->view->ao, "ao.scale", nook_fixture_scales[i % 3]);
         if (result == NOOK_OK)
-            result = nook_ao_parse_param(scene->view->ao, "ao.filter", filters[i / 3]);
+            result = nook_ao_parse_param(scene->view->ao, "ao.filter", nook_fixture_filters[i / 3]);
         if (result == NOOK_OK)
-            result = record_all(scene, found, what);
+            result = nook_edge_scene_record_all(scene, found, what);
     }
     return result;
 }

@@ -222,3 +222,14 @@ nook_result nook_edge_scene_record(nook_edge_scene *scene, const char *technique
     nook_extreme_check_view(found, scene->view, "%s, %s", technique, where);
     return NOOK_OK;
 }
+
+nook_result nook_edge_scene_record_all(nook_edge_scene *scene, nook_extreme_found *found, const char *what)
+{
+    size_t count;
+    const nook_ao_technique *const *techniques = nook_techniques(&count);
+    nook_result result = NOOK_OK;
+    for (size_t i = 0; result == NOOK_OK && i < count; i++)
+        result = nook_edge_scene_record(scene, techniques[i]->name, found, "%s", what);
+    nook_extreme_worst(found, (double)found->outside, "%s", what);
+    return result;
+}

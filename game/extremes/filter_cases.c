@@ -2,7 +2,7 @@
 #include "engine/core/log.h"
 #include "game/extremes/groups.h"
 #include "game/extremes/random_transform.h"
-#include "modules/ao/technique.h"
+#include "modules/fixture/painter.h"
 #include "modules/fixture/view.h"
 #include <float.h>
 #include <math.h>
@@ -10,15 +10,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const scales[] = { "full", "half", "quarter" }, *const filters[] = { "none", "disc", "tile" };
 static const double radii[] = { 4.0, 0.5, 16.0 };                                     /* trace pixels */
 static const double widths[][2] = { { 2.0, 32.0 }, { 0.1, 1024.0 }, { 100.0, 0.0 } }; /* filter_depth, filter_normal */
-enum { WAYS = NOOK_COUNT(scales) * NOOK_COUNT(filters) };
+enum { WAYS = NOOK_FIXTURE_SCALES * NOOK_FIXTURE_FILTERS };
 
 /* Nothing of a sample counts below exp(-x^2) = 1e-3: shaders/ao/filter.comp.glsl. */
 static const double reach_of_weight = 2.6283;
 
-/* ---- A painting technique --------------------------------------------------------------------------------------- */
+/* ---- What is painted -------------------------------------------------------------------------------------------- */
 
 typedef struct canvas canvas;
 struct canvas {
@@ -30,42 +29,27 @@ struct canvas {
     nook_random random;     /* for clutter */
 };
 
-static nook_result paint_record(void *state, const void *params, const nook_ao_pass *pass)
+static float paint_pixel(const nook_fixture_painter *painter, uint32_t x, uint32_t y, float depth,
+                         const float normal[2])
 {
-    (void)state, (void)params;
-    canvas *c = pass->progress_user;
-    size_t pixels = (size_t)pass->width * pass->height;
-    float *depth = malloc(pixels * sizeof *depth);
-    if (!depth)
-        return nook_fail(NOOK_E_MEMORY, "extremes: no room for %zu pixels", pixels);
-    c->width = pass->width, c->pixels = (uint32_t)pixels;
-    nook_texture_read(pass->gpu, pass->depth, GL_RED, GL_FLOAT, depth, pixels * sizeof *depth);
-    for (size_t i = 0; i < pixels; i++)
-        depth[i] = c->paint(c, (uint32_t)(i % pass->width), (uint32_t)(i / pass->width), depth[i]);
-    nook_texture_write(pass->gpu, pass->visibility, GL_RED, GL_FLOAT, depth, pixels * sizeof *depth);
-    free(depth);
-    return NOOK_OK;
+    canvas *c = painter->user;
+    (void)normal;
+    c->width = painter->width, c->pixels = painter->width * painter->height;
+    return c->paint(c, x, y, depth);
 }
-
-static const nook_ao_technique painter = {
-    .version = NOOK_AO_TECHNIQUE_VERSION,
-    .name = "painter",
-    .summary = "Writes what a case of the filter paints",
-    .state_version = 1,
-    .record = paint_record,
-};
 
 static nook_result with_canvas(const nook_extremes *extremes, nook_extreme_found *out_found,
                                nook_result (*run)(const nook_extremes *extremes, canvas *c))
 {
-    static const nook_ao_technique *const techniques[] = { &painter };
+    static const nook_ao_technique *const techniques[] = { &nook_fixture_painter_technique };
     canvas c = { .found = out_found, .random = { 5 } };
+    nook_fixture_painter painter = { .paint = paint_pixel, .user = &c };
     const nook_fixture_view_desc desc = { .gpu = extremes->gpu,
                                           .width = 37,
                                           .height = 23,
                                           .techniques = techniques,
                                           .technique_count = 1,
-                                          .progress_user = &c };
+                                          .progress_user = &painter };
     nook_result result = nook_fixture_view_create(&desc, &c.view);
     if (result == NOOK_OK)
         result = run(extremes, &c);
@@ -89,9 +73,9 @@ static nook_result start(canvas *c, uint32_t width, uint32_t height)
 /* @param way scale and filter */
 static nook_result choose(canvas *c, size_t way, double radius, const double width[2])
 {
-    nook_result result = nook_ao_parse_param(c->view->ao, "ao.scale", scales[way / 3]);
+    nook_result result = nook_ao_parse_param(c->view->ao, "ao.scale", nook_fixture_scales[way / 3]);
     if (result == NOOK_OK)
-        result = nook_ao_parse_param(c->view->ao, "ao.filter", filters[way % 3]);
+        result = nook_ao_parse_param(c->view->ao, "ao.filter", nook_fixture_filters[way % 3]);
     if (result == NOOK_OK)
         result = nook_ao_set_param(c->view->ao, "ao.filter_radius", radius);
     if (result == NOOK_OK)
@@ -164,8 +148,9 @@ static nook_result look_at_constants(const nook_extremes *extremes, canvas *c)
         for (size_t variant = turn++ % step; variant < variants && result == NOOK_OK; variant += step) {
             const uint32_t *size = sizes[k / WAYS];
             char what[128];
-            snprintf(what, sizeof what, "%ux%u, %s, %s, radius %g, depth %g", size[0], size[1], scales[k % WAYS / 3],
-                     filters[k % 3], radii[variant % 3], widths[variant / 3][0]);
+            snprintf(what, sizeof what, "%ux%u, %s, %s, radius %g, depth %g", size[0], size[1],
+                     nook_fixture_scales[k % WAYS / 3], nook_fixture_filters[k % 3], radii[variant % 3],
+                     widths[variant / 3][0]);
             result = start(c, size[0], size[1]);
             if (result == NOOK_OK)
                 result = choose(c, k % WAYS, radii[variant % 3], widths[variant / 3]);
@@ -250,7 +235,8 @@ static nook_result look_at_steps(const nook_extremes *extremes, canvas *c)
         const double *width = depths[k / WAYS % 3], radius = radii[k / WAYS / 3];
         double step = least_step(c, way, width[0]);
         char what[128];
-        snprintf(what, sizeof what, "%s, %s, radius %g, depth %g", scales[way / 3], filters[way % 3], radius, width[0]);
+        snprintf(what, sizeof what, "%s, %s, radius %g, depth %g", nook_fixture_scales[way / 3],
+                 nook_fixture_filters[way % 3], radius, width[0]);
         result = choose(c, way, radius, width);
         for (uint32_t edge = 15; edge < (extremes->quick ? 17 : 20) && step > 0.0 && result == NOOK_OK; edge++)
             result = check_step(c, step, edge, what);
@@ -300,7 +286,7 @@ static nook_result look_at_islands(const nook_extremes *extremes, canvas *c)
             result = record(c, "one pixel");
             float expected = is_traced(c, i % size[0], i / size[0], scale) ? c->value : 1.0f;
             nook_extreme_worst(c->found, fabsf(c->view->visibility[i] - expected), "pixel %u of %ux%u, %s, %s", i,
-                               size[0], size[1], scales[k % WAYS / 3], filters[k % 3]);
+                               size[0], size[1], nook_fixture_scales[k % WAYS / 3], nook_fixture_filters[k % 3]);
         }
     }
     return result;
@@ -337,8 +323,8 @@ static nook_result look_at_mixtures(const nook_extremes *extremes, canvas *c)
             if (!(c->view->device_depth[i] > 0.0f))
                 continue;
             double v = c->view->visibility[i], beyond = fmax(0.25 - v, v - 0.75);
-            nook_extreme_worst(c->found, fmax(beyond, 0.0), "%ux%u, %s, %s", size[0], size[1], scales[k % WAYS / 3],
-                               filters[k % 3]);
+            nook_extreme_worst(c->found, fmax(beyond, 0.0), "%ux%u, %s, %s", size[0], size[1],
+                               nook_fixture_scales[k % WAYS / 3], nook_fixture_filters[k % 3]);
         }
     }
     return result;
@@ -382,7 +368,8 @@ static nook_result look_at_ramps(const nook_extremes *extremes, canvas *c)
                 x >= WIDTH - WIDTH / 4) /* the disc of a quarter trace reaches 16 pixels: no border in it */
                 continue;
             double off = fabs(c->view->visibility[i] - x / (double)WIDTH) * WIDTH / (1 << way / 3);
-            nook_extreme_worst(c->found, off, "%s, %s, column %u", scales[way / 3], filters[way % 3], x);
+            nook_extreme_worst(c->found, off, "%s, %s, column %u", nook_fixture_scales[way / 3],
+                               nook_fixture_filters[way % 3], x);
         }
     }
     return result;

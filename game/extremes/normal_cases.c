@@ -1,4 +1,5 @@
 /* Normals that a host may give, and those that it should not. */
+#include "engine/core/angle.h"
 #include "game/extremes/edge_scene.h"
 #include "game/extremes/probe.h"
 #include "game/extremes/random_transform.h"
@@ -125,18 +126,17 @@ nook_result nook_surface_run_rebuilt(const nook_extremes *extremes, nook_extreme
 
 /* ---- Anything ---- */
 
-static nook_result record_all(nook_edge_scene *scene, nook_extreme_found *found, const char *what)
+/** At full and at half scale, where a trace pixel takes one normal of four. */
+static nook_result record_scales(nook_edge_scene *scene, nook_extreme_found *found, const char *what)
 {
-    static const char *const scales[] = { "full", "half" };
-    size_t count;
-    const nook_ao_technique *const *techniques = nook_techniques(&count);
     nook_result result = NOOK_OK;
-    for (size_t i = 0; result == NOOK_OK && i < 2 * count; i++) {
-        result = nook_ao_parse_param(scene->view->ao, "ao.scale", scales[i % 2]);
+    for (size_t i = 0; result == NOOK_OK && i < 2; i++) {
+        char where[128];
+        snprintf(where, sizeof where, "%s, %s", what, nook_fixture_scales[i]);
+        result = nook_ao_parse_param(scene->view->ao, "ao.scale", nook_fixture_scales[i]);
         if (result == NOOK_OK)
-            result = nook_edge_scene_record(scene, techniques[i / 2]->name, found, "%s, %s", what, scales[i % 2]);
+            result = nook_edge_scene_record_all(scene, found, where);
     }
-    nook_extreme_worst(found, (double)found->outside, "%s", what);
     return result;
 }
 
@@ -154,7 +154,7 @@ static void spoil(nook_edge_scene *scene)
 /** Normals that lie in the surface, and that point into it. */
 static nook_result turn_normals(nook_edge_scene *scene, nook_extreme_found *found)
 {
-    static const double turns[] = { 1.5707963267948966, 3.141592653589793, 2.0 };
+    static const double turns[] = { 1.5707963267948966, NOOK_PI, 2.0 };
     nook_result result = NOOK_OK;
     for (size_t k = 0; result == NOOK_OK && k < NOOK_COUNT(turns); k++) {
         result = nook_edge_scene_draw(scene);
@@ -167,7 +167,7 @@ static nook_result turn_normals(nook_edge_scene *scene, nook_extreme_found *foun
             nook_fixture_encode_normal(turned, scene->view->normals[i]);
         }
         if (result == NOOK_OK)
-            result = record_all(scene, found, "turned");
+            result = record_scales(scene, found, "turned");
     }
     return result;
 }
@@ -189,7 +189,7 @@ nook_result nook_surface_run_rubbish_normals(const nook_extremes *extremes, nook
         spoil(&scene);
         char what[48];
         snprintf(what, sizeof what, "rubbish in format %#x", formats[f]);
-        result = record_all(&scene, out_found, what);
+        result = record_scales(&scene, out_found, what);
         if (result == NOOK_OK && f == 0)
             result = turn_normals(&scene, out_found);
         nook_edge_scene_free(&scene);

@@ -1,4 +1,5 @@
 /* A body that spins for a million frames, through the ECS as in the game: does it drift, does its shadow? */
+#include "engine/core/angle.h"
 #include "engine/core/rotation.h"
 #include "engine/core/vector.h"
 #include "engine/ecs/spin.h"
@@ -11,7 +12,6 @@
 #include <stdio.h>
 #include <string.h>
 
-static const double pi = 3.14159265358979323846;
 static const double axis[3] = { 0.48, -0.6, 0.64 }; /* unit */
 static const double pivot[3] = { 0.1, 0.2, 0.6 };
 
@@ -40,7 +40,7 @@ static nook_result fill(body *b, const nook_matrix *start)
     nook_transform transform;
     for (int i = 0; i < 3; i++) {
         spin.pivot[i] = pivot[i];
-        spin.angular_velocity[i] = 2.0 * pi * axis[i];
+        spin.angular_velocity[i] = 2.0 * NOOK_PI * axis[i];
     }
     memcpy(spin.world_from_start, start->m, sizeof spin.world_from_start);
     memcpy(transform.world_from_local, start->m, sizeof transform.world_from_local);
@@ -213,7 +213,7 @@ static nook_result look_at_first(shadow *s, const nook_matrix *start)
         return result;
     memcpy(s->first, s->view->visibility, sizeof s->first);
     double quarter[4] = { 0, 0, 0, 1 };
-    nook_rotation_advance(quarter, axis, 0.5 * pi);
+    nook_rotation_advance(quarter, axis, 0.5 * NOOK_PI);
     nook_matrix turn = nook_rotation_matrix(quarter), turned = nook_matrix_multiply(&turn, start);
     memcpy(turned.m + 12, start->m + 12, 3 * sizeof(double));
     result = measure_shadow(s, &turned, FRAMES_PER_TURN / 4);

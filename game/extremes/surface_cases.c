@@ -1,4 +1,5 @@
 /* What stands in the G-buffer: normals that are none, depths that are none, surfaces seen along themselves, images of one pixel. */
+#include "engine/core/angle.h"
 #include "game/extremes/edge_pictures.h"
 #include "game/extremes/groups.h"
 #include "game/extremes/surface_internal.h"
@@ -89,7 +90,7 @@ static nook_result measure_along(const nook_extremes *extremes, double degrees, 
 {
     const size_t count = screen ? NOOK_COUNT(reaches_pixels) : 1;
     nook_edge_scene scene;
-    nook_result result = look_along(extremes, degrees / 180.0 * 3.14159265358979, &scene);
+    nook_result result = look_along(extremes, degrees / 180.0 * NOOK_PI, &scene);
     if (result != NOOK_OK)
         return result;
     const double pixel = 2.0 / (scene.view->clip_from_view.m[5] * scene.view->height);

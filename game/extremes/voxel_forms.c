@@ -1,8 +1,7 @@
 #include "game/extremes/voxel_forms.h"
+#include "engine/core/angle.h"
 #include "modules/fixture/closed_form.h"
 #include <math.h>
-
-static const double pi = 3.14159265358979323846;
 
 double nook_square_overhead(double side, double height)
 {
@@ -45,5 +44,5 @@ double nook_thin_body_least(const nook_thin_body *body)
             sum += at[2] / sqrt(squared) / squared * across * cell * cell * cell;
         }
     }
-    return sum / (body->voxel * pi);
+    return sum / (body->voxel * NOOK_PI);
 }

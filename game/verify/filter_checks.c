@@ -1,6 +1,6 @@
 /* Row 20: the filter alone, given visibility that a technique of no geometry painted; and what lower scales of the trace change. */
 #include "game/verify/verify_run.h"
-#include "modules/ao/technique.h"
+#include "modules/fixture/painter.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,52 +8,25 @@
 
 enum { WIDTH = 37, HEIGHT = 23 };
 
-static const char *const scales[] = { "full", "half", "quarter" };
-static const char *const filters[] = { "none", "disc", "tile" };
-
-/** What a trace "computes"; found where the host's progress call would find its user. */
+/** What a trace "computes". */
 typedef struct picture_to_paint {
     bool by_depth;  /**< 0 nearer than 2 m, 1 beyond. */
     bool by_normal; /**< 0 where the view normal points to the left, 1 elsewhere. */
     float constant; /**< Else this. */
 } picture_to_paint;
 
-static float paint(const picture_to_paint *canvas, float depth, const float normal[2])
+static float paint(const nook_fixture_painter *painter, uint32_t x, uint32_t y, float depth, const float normal[2])
 {
+    const picture_to_paint *canvas = painter->user;
+    double n[3];
+    (void)x, (void)y;
     if (canvas->by_depth)
         return depth < 2.0f ? 0.0f : 1.0f;
-    double n[3];
     nook_fixture_decode_normal(normal, n);
     if (canvas->by_normal)
         return n[0] < 0.0 ? 0.0f : 1.0f;
     return depth > 0.0f ? canvas->constant : 1.0f;
 }
-
-static nook_result paint_record(void *state, const void *params, const nook_ao_pass *pass)
-{
-    (void)state, (void)params;
-    size_t pixels = (size_t)pass->width * pass->height;
-    float *depth = malloc(pixels * sizeof *depth), (*normals)[2] = malloc(pixels * sizeof *normals);
-    nook_result result = depth && normals ? NOOK_OK : NOOK_E_MEMORY;
-    if (result == NOOK_OK) {
-        nook_texture_read(pass->gpu, pass->depth, GL_RED, GL_FLOAT, depth, pixels * sizeof *depth);
-        nook_texture_read(pass->gpu, pass->normal, GL_RG, GL_FLOAT, normals, pixels * sizeof *normals);
-        for (size_t i = 0; i < pixels; i++)
-            depth[i] = paint(pass->progress_user, depth[i], normals[i]);
-        nook_texture_write(pass->gpu, pass->visibility, GL_RED, GL_FLOAT, depth, pixels * sizeof *depth);
-    }
-    free(depth);
-    free(normals);
-    return result;
-}
-
-static const nook_ao_technique painter = {
-    .version = NOOK_AO_TECHNIQUE_VERSION,
-    .name = "painter",
-    .summary = "Writes what a check of the filter wants",
-    .state_version = 1,
-    .record = paint_record,
-};
 
 static void be_silent(void *user, double fraction)
 {
@@ -123,10 +96,11 @@ static nook_result compare(const filter_run *run, const char *what)
     for (size_t k = 0; k < 9 && result == NOOK_OK; k++) {
         double worst = 0.0;
         char settings[64];
-        snprintf(settings, sizeof settings, "ao.scale=%s ao.filter=%s", scales[k / 3], filters[k % 3]);
-        result = nook_ao_parse_param(run->view->ao, "ao.scale", scales[k / 3]);
+        snprintf(settings, sizeof settings, "ao.scale=%s ao.filter=%s", nook_fixture_scales[k / 3],
+                 nook_fixture_filters[k % 3]);
+        result = nook_ao_parse_param(run->view->ao, "ao.scale", nook_fixture_scales[k / 3]);
         if (result == NOOK_OK)
-            result = nook_ao_parse_param(run->view->ao, "ao.filter", filters[k % 3]);
+            result = nook_ao_parse_param(run->view->ao, "ao.filter", nook_fixture_filters[k % 3]);
         if (result == NOOK_OK)
             result = nook_fixture_view_record(run->view, "painter");
         for (uint32_t i = 0; result == NOOK_OK && i < WIDTH * HEIGHT; i++)
@@ -140,15 +114,16 @@ static nook_result compare(const filter_run *run, const char *what)
 
 static nook_result check_filter(const nook_verify_desc *desc, nook_verify_rows *rows)
 {
-    static const nook_ao_technique *const techniques[] = { &painter };
+    static const nook_ao_technique *const techniques[] = { &nook_fixture_painter_technique };
     picture_to_paint canvas = { .constant = 0.7123456f };
+    nook_fixture_painter painter = { .paint = paint, .user = &canvas };
     const nook_fixture_view_desc view_desc = { .gpu = desc->gpu,
                                                .width = WIDTH,
                                                .height = HEIGHT,
                                                .techniques = techniques,
                                                .technique_count = 1,
                                                .progress = be_silent,
-                                               .progress_user = &canvas };
+                                               .progress_user = &painter };
     filter_run run = { .canvas = &canvas, .rows = rows };
     nook_result result = nook_fixture_view_create(&view_desc, &run.view);
     if (result != NOOK_OK)
@@ -181,7 +156,7 @@ static nook_result check_scales(nook_verify_rig *rig, nook_verify_rows *rows, co
         char text[128];
         nook_setting setting;
         nook_verify_reading got = { 0 };
-        snprintf(text, sizeof text, "volume rays=64 steps=512 ao.scale=%s", scales[k]);
+        snprintf(text, sizeof text, "volume rays=64 steps=512 ao.scale=%s", nook_fixture_scales[k]);
         result = nook_setting_parse("verify", text, &setting);
         if (result == NOOK_OK)
             result = nook_verify_rig_look(rig, &scene, &setting, &got);

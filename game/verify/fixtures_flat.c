@@ -1,9 +1,8 @@
 /* Fixtures 1 and 4 to 9: planes and pieces of planes that are infinite in the closed forms. */
+#include "engine/core/angle.h"
 #include "game/verify/fixtures.h"
 #include <math.h>
 #include <stdio.h>
-
-static const double PI = 3.14159265358979323846;
 
 static bool is_infinite(double extent)
 {
@@ -126,7 +125,7 @@ void nook_verify_make_low_wall(uint32_t point, double extent, nook_verify_scene 
 void nook_verify_make_dihedral(uint32_t point, double extent, nook_verify_scene *scene)
 {
     static const double angles[] = { 120, 90, 60, 150, 45 };
-    double angle = angles[point] * PI / 180, x = is_infinite(extent) ? 1.0 : 0.5;
+    double angle = angles[point] * NOOK_PI / 180, x = is_infinite(extent) ? 1.0 : 0.5;
     double length = is_infinite(extent) ? extent : 1.5, top[2] = { x - length * cos(angle), length * sin(angle) };
     snprintf(scene->point, sizeof scene->point, "%g degrees", angles[point]);
     add_strip(scene, nook_verify_scene_object(scene), (double[]){ x, 0 }, top, extent);

@@ -1,9 +1,8 @@
 /* Fixtures 3 and 10 to 14: spheres, a pit, a disc. */
+#include "engine/core/angle.h"
 #include "game/verify/fixtures.h"
 #include <math.h>
 #include <stdio.h>
-
-static const double PI = 3.14159265358979323846;
 
 /* Corners lie on the round surface; what the chords lose is under 1e-3 of A. Of a sphere seen from inside the receiver's own facet must be
    smaller than a pixel, or it hides from the flattest rays what is nearest: with 64 sides A is 0.04 too small. */
@@ -45,7 +44,7 @@ void nook_verify_make_pit(uint32_t point, double extent, nook_verify_scene *scen
     snprintf(scene->point, sizeof scene->point, "radius %g, depth %g", radius, depth);
     nook_fixture_add_tube(nook_verify_scene_object(scene), radius, 0.0, depth, sides);
     for (uint32_t i = 0; i < sides; i++) { /* the ground around it */
-        double a = 2 * PI * i / sides, b = 2 * PI * (i + 1) / sides;
+        double a = 2 * NOOK_PI * i / sides, b = 2 * NOOK_PI * (i + 1) / sides;
         double p[3] = { radius * cos(a), radius * sin(a), depth }, q[3] = { radius * cos(b), radius * sin(b), depth };
         double r[3] = { 50 * cos(a), 50 * sin(a), depth }, s[3] = { 50 * cos(b), 50 * sin(b), depth };
         nook_fixture_add_triangle(&scene->ground, p, r, s);

@@ -1,12 +1,11 @@
 #include "game/verify/oracle.h"
+#include "engine/core/angle.h"
 #include "engine/core/log.h"
 #include "engine/core/vector.h"
 #include "modules/ao/sampling.h"
 #include "modules/fixture/draw.h"
 #include <math.h>
 #include <stdlib.h>
-
-static const double PI = 3.14159265358979323846;
 
 const nook_verify_receiver nook_verify_origin = { .normal = { 0, 0, 1 } };
 
@@ -61,7 +60,7 @@ static void direction_of(const nook_verify_receiver *receiver, nook_form_weight 
     float u[2];
     nook_sobol_point(index, 0, u);
     double z = weight == NOOK_FORM_COSINE ? sqrt((double)u[0]) : u[0], flat = sqrt(1.0 - z * z),
-           azimuth = 2.0 * PI * u[1];
+           azimuth = 2.0 * NOOK_PI * u[1];
     out[0] = flat * cos(azimuth), out[1] = flat * sin(azimuth), out[2] = z;
     turn(receiver->normal, out);
 }

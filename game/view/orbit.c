@@ -1,4 +1,5 @@
 #include "game/view/orbit.h"
+#include "engine/core/angle.h"
 #include "engine/core/vector.h"
 #include <math.h>
 
@@ -45,7 +46,7 @@ nook_camera nook_orbit_camera(const nook_orbit *orbit)
 
 void nook_orbit_turn(nook_orbit *orbit, double yaw_radians, double pitch_radians)
 {
-    orbit->yaw = remainder(orbit->yaw + yaw_radians, 2.0 * 3.14159265358979323846);
+    orbit->yaw = remainder(orbit->yaw + yaw_radians, 2.0 * NOOK_PI);
     orbit->pitch = clamp(orbit->pitch + pitch_radians, -pitch_limit, pitch_limit);
 }
 

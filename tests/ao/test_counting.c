@@ -12,7 +12,6 @@
 
 enum { WIDTH = 24, HEIGHT = 16 };
 
-static const char *const scales[] = { "full", "half", "quarter" };
 static const double facing[3] = { 0, 0, 1 };
 
 static nook_result record_mistakes(void *state, const void *params, const nook_ao_pass *pass)
@@ -124,7 +123,7 @@ static void test_fetches_of_the_filter_and_of_upscaling_count(void **state)
     ao_view_param(view, "ssao.samples", "3");
     for (int k = 0; k < 3; k++) {
         int scale = 1 << k;
-        ao_view_param(view, "ao.scale", scales[k]);
+        ao_view_param(view, "ao.scale", nook_fixture_scales[k]);
         /* At full size nothing is picked; the guide is a depth and a normal; upscaling finds its start among four depths and
            normals, and reads it. */
         double trace = (k > 0 ? 2.0 : 0.0) + RECEIVER + 3 * 2, guide = 2 + (k > 0 ? 4 * 2 : 0) + 1;

@@ -2,6 +2,7 @@
  * gtao and hbao: what their papers say they compute. gtao estimates equation 1 of docs/techniques.md; hbao the same integral without
  * the cosine, the blocked part of the solid angle (erratum C18). Both only of what the camera sees.
  */
+#include "engine/core/angle.h"
 #include "modules/ao/falloff.h"
 #include "modules/fixture/closed_form.h"
 #include "tests/support/ao_screen.h"
@@ -16,7 +17,6 @@
 
 enum { SIDE = 96 };
 
-static const double pi = 3.14159265358979323846;
 static const double origin[3] = { 0, 0, 0 };
 static const char *const techniques[] = { "gtao", "hbao" };
 
@@ -131,7 +131,7 @@ static double blocked_solid_angle(const nook_fixture_mesh *mesh, const double po
     enum { RAYS = 4096 };
     double sum = 0.0;
     for (int i = 0; i < RAYS; i++) { /* Fibonacci points: heights and so solid angles are even */
-        double z = (i + 0.5) / RAYS, r = sqrt(1 - z * z), azimuth = i * pi * (3 - sqrt(5.0));
+        double z = (i + 0.5) / RAYS, r = sqrt(1 - z * z), azimuth = i * NOOK_PI * (3 - sqrt(5.0));
         nook_fixture_hit hit = { .distance = INFINITY };
         nook_fixture_cast(mesh, point, (double[]){ r * cos(azimuth), r * sin(azimuth), z }, &hit);
         sum += nook_falloff_evaluate(NOOK_FALLOFF_HARD, hit.distance, r_max, 0.0);
@@ -142,7 +142,7 @@ static double blocked_solid_angle(const nook_fixture_mesh *mesh, const double po
 static void test_corners_of_any_angle_read_as_truth_and_as_solid_angle(void **state)
 {
     for (int degrees = 60; degrees <= 150; degrees += 30) {
-        const double angle = degrees * pi / 180;
+        const double angle = degrees * NOOK_PI / 180;
         nook_fixture_view *view = look_into_corner(state, angle, 2.0);
         nook_fixture_mesh mesh = { 0 };
         ao_screen_add_corner(&mesh, 0.3, angle);
@@ -159,7 +159,7 @@ static void test_corners_of_any_angle_read_as_truth_and_as_solid_angle(void **st
 static void test_gtao_follows_the_falloff_in_a_corner(void **state)
 {
     const double k = 0.3;
-    nook_fixture_view *view = look_into_corner(state, pi / 2, 1.0);
+    nook_fixture_view *view = look_into_corner(state, NOOK_PI / 2, 1.0);
     expect_near("hard", ao_screen_measure_centre(view, "gtao"), nook_form_wall(NOOK_FORM_COSINE, NOOK_FALLOFF_HARD, k),
                 0.02);
     ao_view_param(view, "ao.falloff", "linear");
@@ -190,7 +190,7 @@ static void test_both_follow_the_falloff_in_a_pit(void **state)
     set(view, "gtao.steps", 96), set(view, "hbao.steps", 192); /* hbao: the error is of first order in the step */
     ao_view_param(view, "ao.falloff", "linear");
     expect_near("gtao, linear", ao_screen_measure_centre(view, "gtao"), 0.5 - 0.5 * (1 - sqrt(0.5)), 0.03);
-    expect_near("hbao, linear", ao_screen_measure_centre(view, "hbao"), sqrt(0.5) - pi / 16, 0.03);
+    expect_near("hbao, linear", ao_screen_measure_centre(view, "hbao"), sqrt(0.5) - NOOK_PI / 16, 0.03);
     ao_view_param(view, "ao.falloff", "quadratic");
     expect_near("gtao, quadratic", ao_screen_measure_centre(view, "gtao"), 0.5 + 0.125 * log(sqrt(0.5)), 0.03);
 }
@@ -279,7 +279,7 @@ static void test_the_order_of_the_rows_changes_nothing(void **state)
             nook_fixture_mesh mesh = { 0 };
             ao_screen_look(view, (double[]){ -2, 1, 3 }, origin, 0.6, 1.0);
             view->clip_from_view.m[5] *= flipped ? -1.0 : 1.0;
-            ao_screen_add_corner(&mesh, 0.3, pi / 2);
+            ao_screen_add_corner(&mesh, 0.3, NOOK_PI / 2);
             ao_screen_show(view, &mesh);
             means[flipped] = ao_screen_measure(view, techniques[k]);
         }
@@ -291,7 +291,7 @@ static void test_the_order_of_the_rows_changes_nothing(void **state)
 /* A coarser trace loses what is nearer than its texel. */
 static void test_half_and_quarter_resolution_mean_the_same(void **state)
 {
-    nook_fixture_view *view = look_into_corner(state, pi / 2, 1.0);
+    nook_fixture_view *view = look_into_corner(state, NOOK_PI / 2, 1.0);
     for (size_t k = 0; k < NOOK_COUNT(techniques); k++) {
         set(view, "ao.scale", 0);
         double full = ao_screen_measure(view, techniques[k]);
@@ -363,7 +363,7 @@ static nook_fixture_view *look_into_funnel(void **state, double r_max)
     ao_screen_look(view, (double[]){ 0, 0, 4 }, origin, 0.8, r_max);
     ao_screen_add_floor(&mesh);
     for (int i = 0; i < SIDES; i++) {
-        const double a = 2 * pi * i / SIDES, b = 2 * pi * (i + 1) / SIDES;
+        const double a = 2 * NOOK_PI * i / SIDES, b = 2 * NOOK_PI * (i + 1) / SIDES;
         const double p[3] = { near * cos(a), near * sin(a), near }, q[3] = { near * cos(b), near * sin(b), near };
         const double r[3] = { far * cos(a), far * sin(a), far }, t[3] = { far * cos(b), far * sin(b), far };
         nook_fixture_add_triangle(&mesh, p, r, t);
@@ -381,7 +381,7 @@ static void test_thickness_blends_the_horizon_and_keeps_the_arc_that_is_left(voi
     const double solid = ao_screen_measure_centre(view, "gtao");
     assert_true(solid > 0.2 && solid < 0.5); /* some slices have their first sample before the funnel */
     for (int i = 1; i <= 4; i++) {
-        const double thickness = i / 4.0, horizon = pi / 4 + thickness * pi / 4;
+        const double thickness = i / 4.0, horizon = NOOK_PI / 4 + thickness * NOOK_PI / 4;
         set(view, "gtao.thickness", thickness);
         expect_near("part that stays blocked", ao_screen_measure_centre(view, "gtao") / solid, 2 * pow(cos(horizon), 2),
                     0.01);
@@ -394,7 +394,7 @@ static void test_the_highest_numbers_of_samples_mean_the_same(void **state)
 {
     nook_fixture_view *view = *state;
     ao_view_resize(view, 16, 16);
-    look_into_corner(state, pi / 2, 2.0);
+    look_into_corner(state, NOOK_PI / 2, 2.0);
     double gtao = ao_screen_measure(view, "gtao"), hbao = ao_screen_measure(view, "hbao");
     set(view, "gtao.slices", 256), set(view, "gtao.steps", 256);
     set(view, "hbao.directions", 256), set(view, "hbao.steps", 256);
@@ -405,7 +405,7 @@ static void test_the_highest_numbers_of_samples_mean_the_same(void **state)
 
 static void test_hbao_ignores_what_is_below_its_bias(void **state)
 {
-    nook_fixture_view *view = look_into_corner(state, 170 * pi / 180, 2.0);
+    nook_fixture_view *view = look_into_corner(state, 170 * NOOK_PI / 180, 2.0);
     assert_true(ao_screen_measure_centre(view, "hbao") > 0.03);
     set(view, "hbao.bias", 15);
     assert_true(ao_screen_measure_centre(view, "hbao") < 1e-4);

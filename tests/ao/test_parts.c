@@ -13,7 +13,6 @@
 enum { WIDTH = 67, HEIGHT = 45, PIXELS = WIDTH * HEIGHT };
 
 static const char *const techniques[] = { "volume", "ssao", "hsao", "hbao", "gtao", "reference" };
-static const char *const scales[] = { "full", "half", "quarter" };
 static const char *const filters[] = { "none", "disc", "tile" };
 static const char *const upscales[] = { "direct", "stepped" };
 static const nook_rectangle parts[] = { { 0, 0, 33, HEIGHT }, { 17, 9, 1, 1 },   { 21, 5, 40, 13 },
@@ -108,11 +107,11 @@ static void test_part_is_bit_for_bit_that_of_the_whole_picture(void **state)
 {
     nook_fixture_view *view = *state;
     for (size_t t = 0; t < NOOK_COUNT(techniques); t++) {
-        for (size_t s = 0; s < NOOK_COUNT(scales); s++) {
+        for (size_t s = 0; s < NOOK_FIXTURE_SCALES; s++) {
             for (size_t f = 0; f < NOOK_COUNT(filters) * (s > 0 ? NOOK_COUNT(upscales) : 1); f++) {
                 ao_view_param(view, "ao.upscale", upscales[f / NOOK_COUNT(filters)]);
-                assert_true(compare_parts(view, techniques[t], scales[s], filters[f % NOOK_COUNT(filters)]) >
-                            PIXELS / 50);
+                assert_true(compare_parts(view, techniques[t], nook_fixture_scales[s],
+                                          filters[f % NOOK_COUNT(filters)]) > PIXELS / 50);
             }
         }
     }
@@ -159,8 +158,8 @@ static void test_same_view_reads_the_host_s_buffers_only_when_their_copies_are_g
     nook_fixture_view *view = *state;
     float before[PIXELS];
     ao_view_param(view, "ao.upscale", "direct"); /* stepped keeps no copy of the full size */
-    for (size_t s = 0; s < NOOK_COUNT(scales); s++) {
-        ao_view_param(view, "ao.scale", scales[s]);
+    for (size_t s = 0; s < NOOK_FIXTURE_SCALES; s++) {
+        ao_view_param(view, "ao.scale", nook_fixture_scales[s]);
         ao_view_record(view, "gtao");
         memcpy(before, view->visibility, sizeof before);
         float kept = view->device_depth[20 * WIDTH + 30];
@@ -220,8 +219,8 @@ static void test_fetches_of_all_pixels_are_the_sum_that_is_counted(void **state)
     ao_view_param(view, "ao.count", "1");
     ao_view_param(view, "ao.filter", "tile");
     for (size_t t = 0; t + 1 < NOOK_COUNT(techniques); t++) { /* not the reference, which fetches nothing */
-        for (size_t s = 0; s < NOOK_COUNT(scales); s++) {
-            ao_view_param(view, "ao.scale", scales[s]);
+        for (size_t s = 0; s < NOOK_FIXTURE_SCALES; s++) {
+            ao_view_param(view, "ao.scale", nook_fixture_scales[s]);
             ao_view_param(view, "ao.upscale", upscales[t % 2]);
             expect_same_fetches(view, image, techniques[t]);
         }

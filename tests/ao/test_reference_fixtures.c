@@ -1,4 +1,5 @@
 /* The ray-traced reference against closed forms (docs/techniques.md, section Fixtures): within 0.005 at 4096 rays. */
+#include "engine/core/angle.h"
 #include "modules/fixture/closed_form.h"
 #include "tests/support/ao_fixture.h"
 #include <math.h>
@@ -9,7 +10,6 @@
 #include <stddef.h>
 #include <cmocka.h>
 
-static const double pi = 3.14159265358979323846;
 static const double origin[3] = { 0, 0, 0 }, up[3] = { 0, 0, 1 };
 static const double far_away = 1e4; /* stands for infinity: what lies beyond has a solid angle under 1e-3 */
 enum { ROUND = 256 };
@@ -126,7 +126,7 @@ static void test_reference_matches_dihedral_corners(void **state)
 {
     for (double degrees = 60; degrees <= 120; degrees += 30) {
         ao_fixture *fixture = prepare(state, "hard", "1e6");
-        double angle = degrees * pi / 180;
+        double angle = degrees * NOOK_PI / 180;
         nook_fixture_mesh mesh = { 0 };
         nook_fixture_add_quad(&mesh, (double[]){ 1, -far_away, 0 }, (double[]){ 0, 2 * far_away, 0 },
                               (double[]){ -far_away * cos(angle), 0, far_away * sin(angle) });

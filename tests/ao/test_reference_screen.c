@@ -1,4 +1,5 @@
 /* The reference with sees = screen: rays against the surfaces that the depth buffer shows, and nothing else. */
+#include "engine/core/angle.h"
 #include "modules/fixture/closed_form.h"
 #include "modules/fixture/receiver.h"
 #include "tests/support/ao_view.h"
@@ -10,7 +11,7 @@
 #include <cmocka.h>
 
 enum { SIDE = 96 };
-static const double pi = 3.14159265358979323846, angle = 1.0;
+static const double angle = 1.0;
 
 static int setup(void **state)
 {
@@ -147,7 +148,7 @@ static void make_pit(nook_fixture_mesh *mesh)
     for (int i = 0; i < SIDES; i++) {
         double inner[2][3], outer[2][3];
         for (int side = 0; side < 2; side++) {
-            double turn = 2 * pi * (i + side) / SIDES;
+            double turn = 2 * NOOK_PI * (i + side) / SIDES;
             inner[side][0] = cos(turn), inner[side][1] = sin(turn), inner[side][2] = 1.0;
             outer[side][0] = 6 * cos(turn), outer[side][1] = 6 * sin(turn), outer[side][2] = 1.0;
         }

@@ -1,4 +1,5 @@
 /* Ray directions: cosine weighted, and every block and all blocks together evenly spread. */
+#include "engine/core/angle.h"
 #include "engine/core/result.h"
 #include "modules/ao/sampling.h"
 #include <math.h>
@@ -9,7 +10,6 @@
 #include <stddef.h>
 #include <cmocka.h>
 
-static const double pi = 3.14159265358979323846;
 static const uint32_t seeds[] = { 0, 1, 2, 1234567, 0xffffffffu };
 
 /** 2^m points from `first` on: each of the boxes 2^-a by 2^(a-m) of the unit square, for every a, holds one. */
@@ -123,7 +123,7 @@ static void test_sampling_maps_the_square_onto_the_hemisphere_by_area(void **sta
     float d[3];
     nook_cosine_direction(point, d);
     assert_true(fabs((double)d[0]) < 1e-6 && fabs(d[1] - 0.6) < 1e-6 && fabs(d[2] - 0.8) < 1e-6);
-    assert_true(fabs(atan2((double)d[1], (double)d[0]) - 0.5 * pi) < 1e-6);
+    assert_true(fabs(atan2((double)d[1], (double)d[0]) - 0.5 * NOOK_PI) < 1e-6);
 }
 
 int main(void)

@@ -1,4 +1,5 @@
 /* Screen-space techniques on an exact G-buffer: what they get right, and what a depth buffer cannot know. */
+#include "engine/core/angle.h"
 #include "modules/fixture/closed_form.h"
 #include "tests/support/ao_screen.h"
 #include <math.h>
@@ -10,7 +11,6 @@
 
 enum { SIDE = 96 };
 
-static const double pi = 3.14159265358979323846;
 static const char *const screen_space[] = { "ssao", "hsao", "hbao", "gtao" };
 
 static int setup(void **state)
@@ -88,7 +88,7 @@ static void test_hsao_is_near_the_truth_in_a_corner_that_the_camera_sees(void **
     const double k = 0.3, truth = nook_form_wall(NOOK_FORM_COSINE, NOOK_FALLOFF_HARD, k); /* a wall at 0.3 r_max */
     nook_fixture_view *view = look(state, (double[]){ -2, 0, 3 }, (double[]){ 0, 0, 0 }, 0.6, 1);
     nook_fixture_mesh mesh = { 0 };
-    ao_screen_add_corner(&mesh, k, pi / 2);
+    ao_screen_add_corner(&mesh, k, NOOK_PI / 2);
     ao_screen_show(view, &mesh);
     double reference = ao_screen_measure_centre(view, "reference"), hsao = ao_screen_measure_centre(view, "hsao"),
            ssao = ao_screen_measure_centre(view, "ssao");
@@ -147,7 +147,7 @@ static void test_hsao_means_the_same_with_more_samples_than_one_dispatch_holds(v
     ao_view_param(view, "hsao.rays", "16");
     ao_view_param(view, "hsao.ray_steps", "64");
     nook_fixture_mesh mesh = { 0 };
-    ao_screen_add_corner(&mesh, 0.3, pi / 2);
+    ao_screen_add_corner(&mesh, 0.3, NOOK_PI / 2);
     ao_screen_show(view, &mesh);
     double few = measure_corner(view, "32"), many = measure_corner(view, "160"); /* llvmpipe stops at 65535 turns */
     ao_view_resize(view, SIDE, SIDE);
@@ -165,7 +165,7 @@ static void test_hsao_is_the_same_in_a_flipped_projection(void **state)
         view->clip_from_view.m[5] *= flipped ? -1.0 : 1.0;
         nook_fixture_view_clear(view);
         nook_fixture_mesh mesh = { 0 };
-        ao_screen_add_corner(&mesh, 0.3, pi / 2);
+        ao_screen_add_corner(&mesh, 0.3, NOOK_PI / 2);
         ao_screen_show(view, &mesh);
         means[flipped] = ao_screen_measure(view, "hsao");
         view->without_normals = 0;

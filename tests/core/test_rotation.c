@@ -1,3 +1,4 @@
+#include "engine/core/angle.h"
 #include "engine/core/rotation.h"
 #include "engine/core/vector.h"
 #include <float.h>
@@ -7,8 +8,6 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <cmocka.h>
-
-static const double pi = 3.14159265358979323846;
 
 static void assert_near(double actual, double expected, double tolerance)
 {
@@ -29,7 +28,7 @@ static void assert_turns_to(const double rotation[4], const double from[3], doub
 static void test_advance_turns_right_handed_about_the_velocity(void **state)
 {
     (void)state;
-    const double x[3] = { 1, 0, 0 }, y[3] = { 0, 1, 0 }, about_z[3] = { 0, 0, pi };
+    const double x[3] = { 1, 0, 0 }, y[3] = { 0, 1, 0 }, about_z[3] = { 0, 0, NOOK_PI };
     double rotation[4] = { 0, 0, 0, 1 };
     nook_rotation_advance(rotation, about_z, 0.5); /* a quarter turn: pi radians per second, half a second */
     assert_turns_to(rotation, x, 0, 1, 0);
@@ -39,7 +38,8 @@ static void test_advance_turns_right_handed_about_the_velocity(void **state)
 static void test_advance_turns_about_axes_of_the_world_after_what_was_turned(void **state)
 {
     (void)state;
-    const double about_z[3] = { 0, 0, pi / 2 }, about_x[3] = { pi / 2, 0, 0 }, x[3] = { 1, 0, 0 }, z[3] = { 0, 0, 1 };
+    const double about_z[3] = { 0, 0, NOOK_PI / 2 }, about_x[3] = { NOOK_PI / 2, 0, 0 }, x[3] = { 1, 0, 0 },
+                 z[3] = { 0, 0, 1 };
     double rotation[4] = { 0, 0, 0, 1 };
     nook_rotation_advance(rotation, about_z, 1.0);
     nook_rotation_advance(rotation, about_x, 1.0);
@@ -109,7 +109,7 @@ static void test_a_million_frames_keep_what_a_matrix_of_floats_loses(void **stat
 {
     (void)state;
     enum { FRAMES = 1000000, FRAMES_PER_TURN = 1000 };
-    const double velocity[3] = { 0.48 * 2 * pi, -0.6 * 2 * pi, 0.64 * 2 * pi };
+    const double velocity[3] = { 0.48 * 2 * NOOK_PI, -0.6 * 2 * NOOK_PI, 0.64 * 2 * NOOK_PI };
     double rotation[4] = { 0, 0, 0, 1 }, step[4] = { 0, 0, 0, 1 };
     nook_rotation_advance(step, velocity, 1.0 / FRAMES_PER_TURN);
     nook_matrix step_matrix = nook_rotation_matrix(step);

@@ -1,3 +1,4 @@
+#include "engine/core/angle.h"
 #include "engine/core/matrix.h"
 #include "engine/ecs/spin.h"
 #include <math.h>
@@ -7,8 +8,6 @@
 #include <stdint.h>
 #include <string.h>
 #include <cmocka.h>
-
-static const double pi = 3.14159265358979323846;
 
 /* A world with the system and one body. */
 static nook_world *make_world(double seconds, const nook_spin *spin, nook_entity *out_body)
@@ -49,7 +48,7 @@ static void test_a_body_turns_about_its_pivot_with_all_its_scale_and_shear(void 
 {
     (void)state;
     const nook_matrix start = { { 2, 0, 0, 0, 1, 3, 0, 0, 0, 0, -1, 0, 10, 0, 4, 1 } };
-    nook_spin spin = { .pivot = { 10, 5, 0 }, .angular_velocity = { 0, 0, pi }, .rotation = { 0, 0, 0, 1 } };
+    nook_spin spin = { .pivot = { 10, 5, 0 }, .angular_velocity = { 0, 0, NOOK_PI }, .rotation = { 0, 0, 0, 1 } };
     memcpy(spin.world_from_start, start.m, sizeof start.m);
     nook_entity body;
     nook_world *world = make_world(0.5, &spin, &body);

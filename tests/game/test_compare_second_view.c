@@ -1,3 +1,4 @@
+#include "engine/core/angle.h"
 #include "game/compare/camera.h"
 #include "game/compare/second_view.h"
 #include "tests/support/log_capture.h"
@@ -7,8 +8,6 @@
 #include <stdlib.h>
 
 #include <cmocka.h>
-
-static const double radians_per_degree = 3.14159265358979323846 / 180.0;
 
 static nook_camera make_camera(void)
 {
@@ -53,14 +52,14 @@ static void test_positive_turn_goes_to_the_right(void **state)
     nook_camera first = make_camera(), second = nook_camera_turn(&first, 5.5, 20.0);
     double eye[3] = { 0.0, 0.0, 0.0 };
     carry_over(&second, &first, eye);
-    assert_near(eye[0], 5.5 * sin(20.0 * radians_per_degree));
+    assert_near(eye[0], 5.5 * sin(20.0 * NOOK_DEGREE));
     assert_near(eye[1], 0.0);
-    assert_near(eye[2], 5.5 * (cos(20.0 * radians_per_degree) - 1.0));
+    assert_near(eye[2], 5.5 * (cos(20.0 * NOOK_DEGREE) - 1.0));
     second = nook_camera_turn(&first, 5.5, -20.0);
     for (int i = 0; i < 3; i++)
         eye[i] = 0.0;
     carry_over(&second, &first, eye);
-    assert_near(eye[0], -5.5 * sin(20.0 * radians_per_degree));
+    assert_near(eye[0], -5.5 * sin(20.0 * NOOK_DEGREE));
 }
 
 static void test_distance_is_the_median_of_what_the_middle_shows(void **state)

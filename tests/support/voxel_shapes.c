@@ -1,4 +1,5 @@
 #include "tests/support/voxel_shapes.h"
+#include "engine/core/angle.h"
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -81,13 +82,12 @@ void test_rotate(float (*points)[3], uint32_t count, double about_x, double abou
 
 test_sphere *test_make_sphere(double radius)
 {
-    const double pi = 3.14159265358979323846;
     test_sphere *s = malloc(sizeof *s);
     assert_non_null(s);
     size_t n = 0;
     for (int r = 0; r <= RINGS; r++)
         for (int c = 0; c < SECTORS; c++) {
-            double latitude = pi * r / RINGS, longitude = 2.0 * pi * c / SECTORS;
+            double latitude = NOOK_PI * r / RINGS, longitude = 2.0 * NOOK_PI * c / SECTORS;
             float *p = s->points[r * SECTORS + c];
             p[0] = (float)(radius * sin(latitude) * cos(longitude));
             p[1] = (float)(radius * cos(latitude));
