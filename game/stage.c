@@ -230,7 +230,9 @@ nook_result nook_stage_update(nook_stage *stage, const nook_camera *camera)
                                  .draws = draws,
                                  .draw_count = draw_count,
                                  .camera = *camera,
-                                 .lights = &stage->lights };
+                                 .lights = &stage->lights,
+                                 .quick = stage->quick,
+                                 .cull_back_faces = stage->quick };
     return NOOK_OK;
 }
 

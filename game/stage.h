@@ -35,8 +35,9 @@ typedef struct nook_stage {
     nook_game_world_desc volumes; /**< As it was filled; its text is that of who filled it. */
     uint32_t occluder_max;        /**< Bodies that the AO has room for. */
     bool stop_asked;              /**< Esc or the close button while nook_stage_show looked. */
-    uint32_t frame_index;         /**< Yours to set: seeds the noise of nook_stage_occlude. */
-    nook_progress *progress;      /**< Yours to set: told how far a long record is. NULL: nobody. */
+    bool quick; /**< Yours to set: draws as for play, nook_frame.quick and single-sided materials from one side. */
+    uint32_t frame_index;    /**< Yours to set: seeds the noise of nook_stage_occlude. */
+    nook_progress *progress; /**< Yours to set: told how far a long record is. NULL: nobody. */
 } nook_stage;
 
 /**

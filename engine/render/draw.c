@@ -79,13 +79,14 @@ void nook_bind_geometry(nook_renderer *renderer, const nook_render_scene *scene,
     gl->BindVertexArray(array);
     nook_bind_uniform(renderer->gpu, UNIFORM_FRAME, renderer->frame_uniforms);
     nook_bind_uniform(renderer->gpu, UNIFORM_LIGHTS, renderer->light_uniforms);
-    nook_bind_storage(renderer->gpu, STORAGE_MATERIALS, scene->materials);
     nook_bind_storage(renderer->gpu, STORAGE_TRIANGLE_NORMALS, scene->triangle_normals);
 }
 
 void nook_bind_material(nook_renderer *renderer, const nook_render_scene *scene, uint32_t material)
 {
     const render_material *m = &scene->material_images[material];
+    renderer->gpu->gl->BindBufferRange(GL_UNIFORM_BUFFER, UNIFORM_MATERIAL, scene->materials.id,
+                                       (GLintptr)material * MATERIAL_STRIDE, MATERIAL_STRIDE);
     for (uint32_t i = 0; i < NOOK_COUNT(m->images); i++)
         nook_bind_texture(renderer->gpu, i, m->images[i].id != 0 ? m->images[i] : renderer->white);
 }
@@ -97,16 +98,23 @@ void nook_draw_primitive(nook_renderer *renderer, const nook_render_scene *scene
     const render_primitive *p = &scene->primitives[primitive];
     if (p->index_count == 0)
         return;
-    const uint32_t draw[3] = { p->material, p->first_triangle, p->index_count / 3 };
-    nook_uniform_uint(renderer->gpu, LOCATION_DRAW, draw, 3);
+    const uint32_t draw[2] = { p->first_triangle, p->index_count / 3 };
+    nook_uniform_uint(renderer->gpu, LOCATION_DRAW, draw, 2);
     gl->DrawElementsInstancedBaseVertexBaseInstance(GL_TRIANGLES, (GLsizei)p->index_count, GL_UNSIGNED_INT,
                                                     (const void *)((uintptr_t)p->first_index * sizeof(uint32_t)),
                                                     (GLsizei)instance_count, (GLint)p->first_vertex, first_instance);
 }
 
+/** How a pass draws. */
+typedef struct solid_draw {
+    program_choice choose;
+    const void *user;
+    bool cull;
+} solid_draw;
+
 /** The primitives of a batch that have one alpha mode. */
 static void draw_batch(nook_renderer *renderer, const nook_render_scene *s, const batch *b, nook_alpha_mode mode,
-                       bool cull)
+                       const solid_draw *how)
 {
     const nook_gl *gl = renderer->gpu->gl;
     const nook_mesh *mesh = &s->scene->meshes[b->mesh];
@@ -116,23 +124,24 @@ static void draw_batch(nook_renderer *renderer, const nook_render_scene *s, cons
         const nook_material *material = &s->scene->materials[number];
         if (material->alpha_mode != mode)
             continue;
-        enable(gl, GL_CULL_FACE, cull && !material->double_sided);
+        enable(gl, GL_CULL_FACE, how->cull && !material->double_sided);
+        nook_program_use(renderer->gpu,
+                         how->choose(renderer, how->user, &s->material_images[number], mode == NOOK_ALPHA_MASK));
         nook_bind_material(renderer, s, number);
         nook_draw_primitive(renderer, s, primitive, b->first_instance, b->instance_count);
     }
 }
 
-void nook_draw_solid(nook_renderer *renderer, const nook_render_scene *scene, const draw_set *set, nook_program opaque,
-                     nook_program masked, bool cull)
+void nook_draw_solid(nook_renderer *renderer, const nook_render_scene *scene, const draw_set *set,
+                     program_choice choose, const void *user, bool cull)
 {
     const batch *batches = set->batches.items;
+    const solid_draw how = { choose, user, cull };
     nook_bind_geometry(renderer, scene, set);
-    nook_program_use(renderer->gpu, opaque);
     for (uint32_t i = 0; i < set->batch_count; i++)
-        draw_batch(renderer, scene, &batches[i], NOOK_ALPHA_OPAQUE, cull);
-    nook_program_use(renderer->gpu, masked);
+        draw_batch(renderer, scene, &batches[i], NOOK_ALPHA_OPAQUE, &how);
     for (uint32_t i = 0; i < set->batch_count; i++)
-        draw_batch(renderer, scene, &batches[i], NOOK_ALPHA_MASK, cull);
+        draw_batch(renderer, scene, &batches[i], NOOK_ALPHA_MASK, &how);
 }
 
 void nook_draw_fullscreen(nook_renderer *renderer, nook_program program)

@@ -1,4 +1,27 @@
 #include "engine/render/internal.h"
+#include <stdio.h>
+
+enum { DEFINES_SIZE = 128 };
+
+/** The program that a material's images and the frame ask for, compiled when the first comes that asks so. */
+static nook_program choose_program(nook_renderer *renderer, const void *user, const render_material *material,
+                                   bool masked)
+{
+    const nook_frame *frame = user;
+    uint32_t kind = (masked ? GBUFFER_MASKED : 0u) | (frame->quick ? GBUFFER_QUICK : 0u) |
+                    (frame->scene->has_tangents ? 0u : GBUFFER_NO_TANGENTS);
+    nook_program *program = &renderer->gbuffer_programs[kind][material->image_set];
+    if (program->handle != 0)
+        return *program;
+    char defines[DEFINES_SIZE];
+    snprintf(defines, sizeof defines, "#define IMAGES %uu\n%s%s%s", material->image_set,
+             kind & GBUFFER_MASKED ? "#define MASKED\n" : "", kind & GBUFFER_QUICK ? "#define QUICK\n" : "",
+             kind & GBUFFER_NO_TANGENTS ? "#define NO_TANGENTS\n" : "");
+    if (nook_program_raster(renderer->gpu, "shaders/render/surface.vert.glsl", "shaders/render/gbuffer.frag.glsl",
+                            defines, program) != NOOK_OK)
+        return masked ? renderer->gbuffer_masked_program : renderer->gbuffer_program;
+    return *program;
+}
 
 void nook_pass_gbuffer(nook_renderer *renderer, const nook_frame *frame)
 {
@@ -10,7 +33,10 @@ void nook_pass_gbuffer(nook_renderer *renderer, const nook_frame *frame)
     for (GLint i = 0; i < 5; i++)
         gl->ClearNamedFramebufferfv(target.id, GL_COLOR, i, zero);
     gl->ClearNamedFramebufferfv(target.id, GL_DEPTH, 0, zero); /* reversed-Z: infinitely far */
-    nook_draw_solid(renderer, frame->scene, &renderer->visible, renderer->gbuffer_program,
-                    renderer->gbuffer_masked_program, frame->cull_back_faces);
+    for (GLuint i = 0; i < MATERIAL_IMAGES && frame->quick; i++)
+        gl->BindSampler(i, renderer->quick_sampler);
+    nook_draw_solid(renderer, frame->scene, &renderer->visible, choose_program, frame, frame->cull_back_faces);
+    for (GLuint i = 0; i < MATERIAL_IMAGES; i++)
+        gl->BindSampler(i, 0);
     nook_raster_end(renderer->gpu);
 }

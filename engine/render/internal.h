@@ -20,7 +20,7 @@ enum {
     UNIT_LIGHT,
     UNIFORM_FRAME = 0,
     UNIFORM_LIGHTS = 1,
-    STORAGE_MATERIALS = 1,
+    UNIFORM_MATERIAL = 2,
     STORAGE_TRIANGLE_NORMALS = 2,
     LOCATION_DRAW = 0,
     ATTRIBUTE_INSTANCE = 5,
@@ -70,15 +70,24 @@ typedef struct render_primitive {
     float centre[3]; /* mesh space, for sorting */
 } render_primitive;
 
+enum {
+    MATERIAL_IMAGES = 5,
+    IMAGE_SETS = 1 << MATERIAL_IMAGES,
+    MATERIAL_STRIDE = 256 /* the most that GL asks of an offset */
+};
+
 /** A material's textures; id 0 where it has none. */
 typedef struct render_material {
-    nook_texture images[5]; /* by UNIT_*_IMAGE */
+    nook_texture images[MATERIAL_IMAGES]; /* by UNIT_*_IMAGE */
+    uint32_t image_set;                   /* bits: 1 << UNIT_*_IMAGE of those it has */
 } render_material;
 
 struct nook_render_scene {
     nook_gpu *gpu;
     const nook_scene *scene; /* borrowed */
-    nook_buffer vertices, indices, triangle_normals, materials;
+    nook_buffer vertices, indices, triangle_normals;
+    nook_buffer materials;            /* one every MATERIAL_STRIDE bytes */
+    bool has_tangents;                /* some vertex has */
     render_primitive *primitives;     /* as scene->primitives */
     render_material *material_images; /* as scene->materials */
     nook_texture *textures;           /* owned: every image that is used, once per encoding */
@@ -171,6 +180,9 @@ typedef struct shadow_contents {
     bool has_base;            /* the base map holds all draws that do not move */
 } shadow_contents;
 
+/** What G-buffer programs are compiled for, besides a material's images. */
+enum { GBUFFER_MASKED = 1, GBUFFER_QUICK = 2, GBUFFER_NO_TANGENTS = 4, GBUFFER_KINDS = 8 };
+
 struct nook_renderer {
     nook_gpu *gpu;
     uint32_t width, height;
@@ -182,7 +194,9 @@ struct nook_renderer {
     nook_buffer frame_uniforms, light_uniforms;
     uint32_t vertex_array;
     uint32_t empty_vertex_array; /* for full-screen triangles */
-    nook_program shadow_program, shadow_masked_program, gbuffer_program, gbuffer_masked_program;
+    nook_program shadow_program, shadow_masked_program, gbuffer_program, gbuffer_masked_program; /* for any material */
+    nook_program gbuffer_programs[GBUFFER_KINDS][IMAGE_SETS]; /* id 0 until one is drawn with */
+    uint32_t quick_sampler;                                   /* of material images in a quick frame */
     nook_program lighting_program, lighting_image_program, blended_program, view_program;
     draw_set visible, casters;
     grow_list blended; /* blended_draw */
@@ -228,9 +242,12 @@ void nook_bind_material(nook_renderer *renderer, const nook_render_scene *scene,
 /** Draws instances of one primitive; its material is bound. */
 void nook_draw_primitive(nook_renderer *renderer, const nook_render_scene *scene, uint32_t primitive,
                          uint32_t first_instance, uint32_t instance_count);
-/** Draws all primitives of a set but the blended ones: `opaque` first, then `masked` for those with holes. */
-void nook_draw_solid(nook_renderer *renderer, const nook_render_scene *scene, const draw_set *set, nook_program opaque,
-                     nook_program masked, bool cull);
+/** @param user  that of nook_draw_solid @return what a pass draws a material with; masked: with holes */
+typedef nook_program (*program_choice)(nook_renderer *renderer, const void *user, const render_material *material,
+                                       bool masked);
+/** Draws all primitives of a set but the blended ones, those with holes last. @param cull  back faces of single-sided ones */
+void nook_draw_solid(nook_renderer *renderer, const nook_render_scene *scene, const draw_set *set,
+                     program_choice choose, const void *user, bool cull);
 void nook_draw_fullscreen(nook_renderer *renderer, nook_program program);
 
 /* shadow_fit.c */

@@ -2,18 +2,22 @@
 #include "engine/core/log.h"
 #include "engine/core/vector.h"
 #include "engine/render/internal.h"
+#include <assert.h>
 #include <cglm/cglm.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/** As Material in shaders/render/material.glsl, std430. */
+/** As Material in shaders/render/material.glsl, std140, one every MATERIAL_STRIDE bytes. */
 typedef struct material_block {
     float base_colour[4];
     float emissive_cutoff[4];
     float metallic, roughness, normal_scale, occlusion_strength;
     uint32_t flags[4];
+    uint8_t padding[MATERIAL_STRIDE - 64];
 } material_block;
+
+static_assert(sizeof(material_block) == MATERIAL_STRIDE, "bound by its number times the stride");
 
 enum { MATERIAL_UNLIT = 32 }; /* below it: 1 << UNIT_*_IMAGE */
 
@@ -51,6 +55,16 @@ static void primitive_centre(const nook_scene *scene, const nook_primitive *prim
     glm_vec3_muladds(box[1], 0.5f, out);
 }
 
+static bool has_tangents(const nook_scene *scene)
+{
+    bool some = false;
+    for (uint32_t i = 0; i < scene->vertex_count && !some; i++) {
+        const float *t = scene->vertices[i].tangent;
+        some = t[0] != 0.0f || t[1] != 0.0f || t[2] != 0.0f;
+    }
+    return some;
+}
+
 static nook_result upload(nook_render_scene *s, const void *data, size_t size, nook_buffer *out)
 {
     static const uint32_t nothing[4] = { 0 };
@@ -85,6 +99,7 @@ static nook_result upload_geometry(nook_render_scene *s)
         primitive_centre(scene, primitive, s->primitives[i].centre);
         triangle += primitive->index_count / 3;
     }
+    s->has_tangents = has_tangents(scene);
     nook_result result = upload(s, normals, triangle_count * 3 * sizeof *normals, &s->triangle_normals);
     free(normals);
     if (result == NOOK_OK)
@@ -132,7 +147,15 @@ static nook_result upload_material_images(nook_render_scene *s, const nook_mater
     return NOOK_OK;
 }
 
-static material_block material_numbers(const nook_material *material, const render_material *images)
+static uint32_t image_set(const render_material *material)
+{
+    uint32_t set = 0;
+    for (uint32_t i = 0; i < MATERIAL_IMAGES; i++)
+        set |= material->images[i].id != 0 ? 1u << i : 0u;
+    return set;
+}
+
+static material_block material_numbers(const nook_material *material, uint32_t images)
 {
     material_block block = {
         .metallic = material->metallic,
@@ -143,9 +166,7 @@ static material_block material_numbers(const nook_material *material, const rend
     memcpy(block.base_colour, material->base_colour, sizeof block.base_colour);
     memcpy(block.emissive_cutoff, material->emissive, sizeof material->emissive);
     block.emissive_cutoff[3] = material->alpha_cutoff;
-    for (uint32_t i = 0; i < NOOK_COUNT(images->images); i++)
-        block.flags[0] |= images->images[i].id != 0 ? 1u << i : 0u;
-    block.flags[0] |= material->unlit ? MATERIAL_UNLIT : 0u;
+    block.flags[0] = images | (material->unlit ? MATERIAL_UNLIT : 0u);
     return block;
 }
 
@@ -158,7 +179,8 @@ static nook_result upload_materials(nook_render_scene *s)
     nook_result result = NOOK_OK;
     for (uint32_t i = 0; i < scene->material_count && result == NOOK_OK; i++) {
         result = upload_material_images(s, &scene->materials[i], &s->material_images[i]);
-        blocks[i] = material_numbers(&scene->materials[i], &s->material_images[i]);
+        s->material_images[i].image_set = image_set(&s->material_images[i]);
+        blocks[i] = material_numbers(&scene->materials[i], s->material_images[i].image_set);
     }
     if (result == NOOK_OK)
         result = upload(s, blocks, scene->material_count * sizeof *blocks, &s->materials);

@@ -53,6 +53,13 @@ static nook_result remember(shadow_contents *shadow, const nook_frame *frame)
     return NOOK_OK;
 }
 
+static nook_program choose_program(nook_renderer *renderer, const void *user, const render_material *material,
+                                   bool masked)
+{
+    (void)user, (void)material;
+    return masked ? renderer->shadow_masked_program : renderer->shadow_program;
+}
+
 /** Draws into a map. @param part only there, over what it holds; NULL: the whole map, from nothing */
 static nook_result draw_map(nook_renderer *renderer, const nook_frame *frame, nook_framebuffer target,
                             const shadow_rect *part)
@@ -72,8 +79,7 @@ static nook_result draw_map(nook_renderer *renderer, const nook_frame *frame, no
     } else {
         gl->ClearNamedFramebufferfv(target.id, GL_DEPTH, 0, &far);
     }
-    nook_draw_solid(renderer, frame->scene, &renderer->casters, renderer->shadow_program,
-                    renderer->shadow_masked_program, false);
+    nook_draw_solid(renderer, frame->scene, &renderer->casters, choose_program, NULL, false);
     gl->Disable(GL_SCISSOR_TEST);
     nook_raster_end(renderer->gpu);
     return NOOK_OK;

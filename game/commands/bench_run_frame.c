@@ -27,7 +27,7 @@ typedef struct frame_options {
     nook_option_size size;
     nook_backend backend;
     int32_t frames;
-    bool cpu;
+    bool cpu, quick;
     char default_scene[NOOK_OPTION_PATH_MAX], default_cache[NOOK_OPTION_PATH_MAX];
 } frame_options;
 
@@ -50,6 +50,10 @@ static bool read_options(const nook_app *app, int argc, char **argv, frame_optio
           .kind = NOOK_OPTION_FLAG,
           .target = &out->cpu,
           .help = "time that all threads have computed, which a busy machine stretches less; software GL only" },
+        { .name = "quick",
+          .kind = NOOK_OPTION_FLAG,
+          .target = &out->quick,
+          .help = "draws as ./nook play does, not as for measuring" },
         nook_option_row_backend(&out->backend),
         nook_option_row_cache(&out->cache, "where baked volumes are kept; default: cache/ of Nook"),
     };
@@ -194,6 +198,8 @@ int nook_bench_run_frame(const nook_app *app, int argc, char **argv)
                                    .height = (uint32_t)options.size.height };
     nook_stage stage;
     nook_result result = nook_stage_open(&desc, &stage);
+    if (result == NOOK_OK)
+        stage.quick = options.quick;
     if (result == NOOK_OK)
         result = run(&stage, &options, &settings);
     nook_stage_close(&stage);

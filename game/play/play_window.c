@@ -43,6 +43,7 @@ static nook_result open_stage(nook_play_window *w, const char *root, const nook_
     nook_result result = nook_stage_open(&stage, &w->stage);
     if (result != NOOK_OK)
         return result;
+    w->stage.quick = true;
     w->has_window = w->stage.shows;
     if (!w->has_window && !w->driven && nook_play_is_free(&w->play))
         return nook_fail(NOOK_E_DEVICE, "play: there is no display to play on; give --replay or --pilot");

@@ -1,5 +1,5 @@
 #version 450
-// Writes the G-buffer. Defines: MASKED cuts at the material's alpha.
+// Writes the G-buffer. Defines: MASKED cuts at the material's alpha; those of surface.glsl.
 #include "render/surface.glsl"
 #include "nook/octahedral.glsl"
 
@@ -13,7 +13,7 @@ void main()
 {
     Surface s = surface_read();
 #ifdef MASKED
-    if (s.alpha < materials[draw.x].emissive_cutoff.w)
+    if (s.alpha < drawn.emissive_cutoff.w)
         discard;
 #endif
     base_colour = vec4(s.base_colour, 1.0);

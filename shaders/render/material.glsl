@@ -1,4 +1,5 @@
-// Materials of the scene. Bindings: storage 1 materials, textures 0 - 4, location 0 the draw.
+// The material of a draw. Bindings: uniform 2 the material, textures 0 - 4, location 0 the draw. Defines: IMAGES, the
+// MATERIAL_*_IMAGE that it has, where the program is compiled for them; what stands in an if costs a software driver in any case.
 #pragma once
 struct Material {
     vec4 base_colour;
@@ -16,19 +17,28 @@ const uint MATERIAL_EMISSIVE_IMAGE = 8u;
 const uint MATERIAL_OCCLUSION_IMAGE = 16u;
 const uint MATERIAL_UNLIT = 32u;
 
-layout(std430, binding = 1) readonly buffer Materials { Material materials[]; };
+layout(std140, binding = 2) uniform MaterialOfDraw { Material drawn; };
 layout(binding = 0) uniform sampler2D base_colour_image;
 layout(binding = 1) uniform sampler2D metallic_roughness_image;
 layout(binding = 2) uniform sampler2D normal_image;
 layout(binding = 3) uniform sampler2D emissive_image;
 layout(binding = 4) uniform sampler2D occlusion_image;
 
-layout(location = 0) uniform uvec3 draw; // material, first triangle, triangle count
+layout(location = 0) uniform uvec2 draw; // first triangle, triangle count
 
-vec4 material_base_colour(Material material, vec2 uv, vec4 colour)
+bool has_image(uint image)
 {
-    vec4 result = material.base_colour * colour;
-    if ((material.flags.x & MATERIAL_BASE_COLOUR_IMAGE) != 0u)
+#ifdef IMAGES
+    return (IMAGES & image) != 0u;
+#else
+    return (drawn.flags.x & image) != 0u;
+#endif
+}
+
+vec4 material_base_colour(vec2 uv, vec4 colour)
+{
+    vec4 result = drawn.base_colour * colour;
+    if (has_image(MATERIAL_BASE_COLOUR_IMAGE))
         result *= texture(base_colour_image, uv);
     return result;
 }

@@ -7,8 +7,7 @@ layout(location = 1) in vec4 shadow_colour;
 void main()
 {
 #ifdef MASKED
-    Material material = materials[draw.x];
-    if (material_base_colour(material, shadow_uv, shadow_colour).a < material.emissive_cutoff.w)
+    if (material_base_colour(shadow_uv, shadow_colour).a < drawn.emissive_cutoff.w)
         discard;
 #endif
 }

@@ -1,17 +1,22 @@
 // A surface point as the fragment shaders of geometry passes see it: material and both normals.
-// Bindings: those of material.glsl, storage 2 triangle normals.
+// Bindings: those of material.glsl, storage 2 triangle normals. Defines: IMAGES of material.glsl; NO_TANGENTS, the vertices have
+// none; QUICK, the triangle's normal is that of the neighbouring pixels' positions: right to about 1e-4 instead of exact.
 #pragma once
 #include "render/frame.glsl"
 #include "render/material.glsl"
 
 layout(location = 0) in vec3 surface_position_view;
 layout(location = 1) in vec3 surface_normal_world;
+#ifndef NO_TANGENTS
 layout(location = 2) in vec4 surface_tangent_world;
+#endif
 layout(location = 3) in vec2 surface_uv;
 layout(location = 4) in vec4 surface_colour;
+#ifndef QUICK
 layout(location = 5) flat in mat3 surface_world_normal_from_mesh;
 
 layout(std430, binding = 2) readonly buffer TriangleNormals { float triangle_normals[]; }; // xyz, mesh space
+#endif
 
 struct Surface {
     vec3 base_colour;
@@ -25,13 +30,26 @@ struct Surface {
     bool unlit;
 };
 
-// The triangle's own plane. The id may or may not start again with each instance; the remainder is right either way.
-vec3 geometric_normal(vec3 relative)
+#ifdef QUICK
+vec3 triangle_normal(vec3 relative)
 {
-    uint triangle = draw.y + uint(gl_PrimitiveID) % draw.z;
+    return cross(dFdx(relative), dFdy(relative));
+}
+#else
+// The id may or may not start again with each instance; the remainder is right either way.
+vec3 triangle_normal(vec3 relative)
+{
+    uint triangle = draw.x + uint(gl_PrimitiveID) % draw.y;
     vec3 normal_mesh = vec3(triangle_normals[triangle * 3u], triangle_normals[triangle * 3u + 1u],
                             triangle_normals[triangle * 3u + 2u]);
-    vec3 normal = surface_world_normal_from_mesh * normal_mesh;
+    return surface_world_normal_from_mesh * normal_mesh;
+}
+#endif
+
+// The triangle's own plane.
+vec3 geometric_normal(vec3 relative)
+{
+    vec3 normal = triangle_normal(relative);
     if (dot(normal, normal) == 0.0) // a triangle without area still touched a pixel
         normal = dot(surface_normal_world, surface_normal_world) > 0.0 ? surface_normal_world : -relative;
     normal = normalize(normal);
@@ -44,10 +62,12 @@ mat3 tangent_frame(vec3 normal, vec3 relative)
 {
     vec3 position_x = dFdx(relative), position_y = dFdy(relative);
     vec2 uv_x = dFdx(surface_uv), uv_y = dFdy(surface_uv);
+#ifndef NO_TANGENTS
     if (dot(surface_tangent_world.xyz, surface_tangent_world.xyz) > 0.0) {
         vec3 tangent = normalize(surface_tangent_world.xyz - normal * dot(normal, surface_tangent_world.xyz));
         return mat3(tangent, cross(normal, tangent) * surface_tangent_world.w, normal);
     }
+#endif
     vec3 across_y = cross(position_y, normal), across_x = cross(normal, position_x);
     vec3 along_u = across_y * uv_x.x + across_x * uv_y.x;
     vec3 along_v = across_y * uv_x.y + across_x * uv_y.y;
@@ -57,13 +77,13 @@ mat3 tangent_frame(vec3 normal, vec3 relative)
     return mat3(along_u * scale, -along_v * scale, normal);
 }
 
-vec3 shading_normal(Material material, vec3 geometric, vec3 relative)
+vec3 shading_normal(vec3 geometric, vec3 relative)
 {
     vec3 normal = dot(surface_normal_world, surface_normal_world) > 0.0 ? normalize(surface_normal_world) : geometric;
     float side = dot(normal, geometric) < 0.0 ? -1.0 : 1.0;
-    if ((material.flags.x & MATERIAL_NORMAL_IMAGE) != 0u) {
+    if (has_image(MATERIAL_NORMAL_IMAGE)) {
         vec3 bump = texture(normal_image, surface_uv).xyz * 2.0 - 1.0;
-        bump.xy *= material.normal_scale;
+        bump.xy *= drawn.normal_scale;
         vec3 mapped = tangent_frame(normal, relative) * bump;
         if (dot(mapped, mapped) > 0.0)
             normal = normalize(mapped);
@@ -73,27 +93,26 @@ vec3 shading_normal(Material material, vec3 geometric, vec3 relative)
 
 Surface surface_read()
 {
-    Material material = materials[draw.x];
     vec3 relative = mat3(frame.world_from_view) * surface_position_view;
     Surface s;
-    vec4 base_colour = material_base_colour(material, surface_uv, surface_colour);
+    vec4 base_colour = material_base_colour(surface_uv, surface_colour);
     s.base_colour = base_colour.rgb;
     s.alpha = base_colour.a;
     s.geometric_normal = geometric_normal(relative);
-    s.normal = shading_normal(material, s.geometric_normal, relative);
-    s.metallic = material.metallic;
-    s.roughness = material.roughness;
-    if ((material.flags.x & MATERIAL_METALLIC_ROUGHNESS_IMAGE) != 0u) {
+    s.normal = shading_normal(s.geometric_normal, relative);
+    s.metallic = drawn.metallic;
+    s.roughness = drawn.roughness;
+    if (has_image(MATERIAL_METALLIC_ROUGHNESS_IMAGE)) {
         vec4 texel = texture(metallic_roughness_image, surface_uv);
         s.metallic *= texel.b;
         s.roughness *= texel.g;
     }
     s.occlusion = 1.0;
-    if ((material.flags.x & MATERIAL_OCCLUSION_IMAGE) != 0u)
-        s.occlusion = 1.0 + material.occlusion_strength * (texture(occlusion_image, surface_uv).r - 1.0);
-    s.emissive = material.emissive_cutoff.rgb;
-    if ((material.flags.x & MATERIAL_EMISSIVE_IMAGE) != 0u)
+    if (has_image(MATERIAL_OCCLUSION_IMAGE))
+        s.occlusion = 1.0 + drawn.occlusion_strength * (texture(occlusion_image, surface_uv).r - 1.0);
+    s.emissive = drawn.emissive_cutoff.rgb;
+    if (has_image(MATERIAL_EMISSIVE_IMAGE))
         s.emissive *= texture(emissive_image, surface_uv).rgb;
-    s.unlit = (material.flags.x & MATERIAL_UNLIT) != 0u;
+    s.unlit = (drawn.flags.x & MATERIAL_UNLIT) != 0u;
     return s;
 }

@@ -1,5 +1,5 @@
 #version 450
-// Vertices of the G-buffer and of blended surfaces. Attributes: docs/rendering.md.
+// Vertices of the G-buffer and of blended surfaces. Attributes: docs/rendering.md. Defines: those of surface.glsl.
 #include "render/frame.glsl"
 
 layout(location = 0) in vec3 position;
@@ -14,10 +14,14 @@ layout(location = 11) in vec4 world_normal_from_mesh_2;
 
 layout(location = 0) out vec3 surface_position_view;
 layout(location = 1) out vec3 surface_normal_world;
+#ifndef NO_TANGENTS
 layout(location = 2) out vec4 surface_tangent_world;
+#endif
 layout(location = 3) out vec2 surface_uv;
 layout(location = 4) out vec4 surface_colour;
+#ifndef QUICK
 layout(location = 5) flat out mat3 surface_world_normal_from_mesh;
+#endif
 
 void main()
 {
@@ -26,10 +30,14 @@ void main()
     vec4 position_view = view_from_mesh * vec4(position, 1.0);
     surface_position_view = position_view.xyz;
     surface_normal_world = world_normal_from_mesh * normal;
+#ifndef NO_TANGENTS
     surface_tangent_world.xyz = mat3(frame.world_from_view) * (mat3(view_from_mesh) * tangent.xyz);
     surface_tangent_world.w = tangent.w * world_normal_from_mesh_0.w;
+#endif
     surface_uv = uv;
     surface_colour = colour;
+#ifndef QUICK
     surface_world_normal_from_mesh = world_normal_from_mesh;
+#endif
     gl_Position = frame.clip_from_view * position_view;
 }

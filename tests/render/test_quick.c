@@ -1,0 +1,99 @@
+/* A quick frame against an exact one: the same depth bit for bit, normals within what neighbouring pixels tell, the same
+   materials but for the filter of their images. */
+#include "tests/support/test_gpu.h"
+#include "tests/support/test_render.h"
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { SIZE = 64 };
+
+static const uint8_t checkers[4 * 4] = { 250, 20, 20, 255, 20, 250, 20, 255, 20, 20, 250, 255, 200, 200, 200, 255 };
+
+/** A tilted plane with an image, a floor and a wall; the wall's draw is mirrored. */
+static void make(void **state, test_scene *scene, test_picture *picture)
+{
+    test_scene_init(scene);
+    uint32_t tilted =
+        test_scene_add_quad(scene, (float[3]){ -2, -2, -6 }, (float[3]){ 3, 0, 1 }, (float[3]){ 0, 4, 1 });
+    test_scene_add_level(scene, 3.0f, 0, -1, -4, true);
+    uint32_t wall = test_scene_add_facing(scene, 1.0f, -5.0f);
+    scene->images[0] = (nook_image){ .width = 2, .height = 2, .pixels = (uint8_t *)(uintptr_t)checkers };
+    scene->scene.image_count = 1;
+    scene->materials[tilted].base_colour_image = 0;
+    test_picture_create(picture, test_gpu_of(state), scene, SIZE, SIZE);
+    picture->draws[wall].world_from_local = nook_matrix_translation(1.5, 0.0, 0.0);
+    picture->draws[wall].world_from_local.m[0] = -1.0;
+}
+
+static double angle_between(const double a[3], const double b[3])
+{
+    return acos(fmin(a[0] * b[0] + a[1] * b[1] + a[2] * b[2], 1.0));
+}
+
+static void test_quick_frame_has_the_depth_and_nearly_the_normals_of_an_exact_one(void **state)
+{
+    test_scene scene;
+    test_picture picture;
+    float depth[SIZE * SIZE];
+    double normals[SIZE * SIZE][3];
+    uint32_t seen = 0;
+    make(state, &scene, &picture);
+    test_picture_render(&picture, NOOK_VIEW_LIT);
+    nook_gbuffer g = nook_renderer_gbuffer(picture.renderer);
+    for (uint32_t i = 0; i < SIZE * SIZE; i++) {
+        depth[i] = test_picture_depth(&picture, i % SIZE, i / SIZE);
+        test_picture_normal(&picture, g.geometric_normal, i % SIZE, i / SIZE, normals[i]);
+    }
+    picture.frame.quick = true;
+    test_picture_render(&picture, NOOK_VIEW_LIT);
+    for (uint32_t i = 0; i < SIZE * SIZE; i++) {
+        double normal[3];
+        assert_true(test_picture_depth(&picture, i % SIZE, i / SIZE) == depth[i]);
+        test_picture_normal(&picture, g.geometric_normal, i % SIZE, i / SIZE, normal);
+        seen += depth[i] > 0.0f;
+        if (depth[i] > 0.0f && !(angle_between(normal, normals[i]) < 1e-3))
+            fail_msg("pixel %u, %u: the quick normal is off by %.2g", i % SIZE, i / SIZE,
+                     angle_between(normal, normals[i]));
+    }
+    assert_true(seen > SIZE * SIZE / 4);
+    test_picture_destroy(&picture);
+}
+
+static void test_quick_frame_shows_the_materials_and_leaves_the_exact_one_as_it_was(void **state)
+{
+    test_scene scene;
+    test_picture picture;
+    uint8_t exact[SIZE * SIZE * 3];
+    make(state, &scene, &picture);
+    test_picture_render(&picture, NOOK_VIEW_BASE_COLOUR);
+    memcpy(exact, picture.pixels, sizeof exact);
+    picture.frame.quick = true;
+    test_picture_render(&picture, NOOK_VIEW_BASE_COLOUR);
+    double off = 0.0, colour = 0.0;
+    for (size_t i = 0; i < sizeof exact; i++) {
+        off += abs(picture.pixels[i] - exact[i]) / (double)sizeof exact;
+        colour += exact[i] / (double)sizeof exact;
+    }
+    assert_true(colour > 20.0);
+    assert_true(off < 0.05 * colour); /* magnified, both filters are the same */
+    picture.frame.quick = false;
+    test_picture_render(&picture, NOOK_VIEW_BASE_COLOUR);
+    assert_memory_equal(picture.pixels, exact, sizeof exact);
+    test_picture_destroy(&picture);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_quick_frame_has_the_depth_and_nearly_the_normals_of_an_exact_one),
+        cmocka_unit_test(test_quick_frame_shows_the_materials_and_leaves_the_exact_one_as_it_was),
+    };
+    return cmocka_run_group_tests(tests, test_gpu_setup, test_gpu_teardown);
+}
