@@ -17,17 +17,18 @@ static bool reserve(file_changes *changes, size_t size)
     return true;
 }
 
-bool nook_file_changes_add(file_changes *changes, const char *path, double now_ms)
+bool nook_file_changes_add(file_changes *changes, const char *path, double when_ms)
 {
     size_t size = strlen(path) + 1;
-    changes->last_ms = now_ms;
+    if (changes->count == 0 || when_ms > changes->last_ms)
+        changes->last_ms = when_ms;
     /* One write is several events: the same path again is the usual case. */
     if (changes->count > 0 && strcmp(changes->text + changes->last, path) == 0)
         return true;
     if (!reserve(changes, size))
         return false;
-    if (changes->count++ == 0)
-        changes->first_ms = now_ms;
+    if (changes->count++ == 0 || when_ms < changes->first_ms)
+        changes->first_ms = when_ms;
     changes->last = changes->size;
     memcpy(changes->text + changes->size, path, size);
     changes->size += size;

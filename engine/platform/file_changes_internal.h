@@ -16,8 +16,8 @@ typedef struct file_changes {
     double first_ms, last_ms;
 } file_changes;
 
-/** Remembers a path. @return false without memory; nothing is changed then */
-bool nook_file_changes_add(file_changes *changes, const char *path, double now_ms);
+/** Remembers a path that changed at that time, by nook_clock_ms. @return false without memory; it is not remembered then */
+bool nook_file_changes_add(file_changes *changes, const char *path, double when_ms);
 
 /** Whether there are some and it is time to tell them. */
 bool nook_file_changes_due(const file_changes *changes, double now_ms);

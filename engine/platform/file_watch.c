@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <uv.h>
 
 enum { PATH_CAPACITY = 4096 };
@@ -34,7 +35,7 @@ struct nook_file_watch {
     size_t folder_count, folder_capacity;
     bool flat;
     bool complained; /**< That something could not be watched: said once. */
-    double seen_ms;
+    double changed_ms;
     file_changes changes;
 };
 
@@ -66,10 +67,22 @@ static bool join(const char *folder_path, const char *name, char out[PATH_CAPACI
     return snprintf(out, PATH_CAPACITY, "%s%s%s", folder_path, folder_path[0] ? "/" : "", name) < PATH_CAPACITY;
 }
 
-static void note(nook_file_watch *watch, const char *path)
+static void note(nook_file_watch *watch, const char *path, double when_ms)
 {
-    if (!nook_file_changes_add(&watch->changes, path, nook_clock_ms()))
+    if (!nook_file_changes_add(&watch->changes, path, when_ms))
         nook_log_warning("file watch: out of memory; that %s has changed is lost", path);
+}
+
+/* When a file was changed, by nook_clock_ms: a frame may be long over when it is heard of. What cannot be true is now. */
+static double changed_at(const struct stat *info)
+{
+    static const double longest_ms = 10000.0;
+    struct timespec today;
+    double now = nook_clock_ms();
+    clock_gettime(CLOCK_REALTIME, &today);
+    double age_ms =
+        (double)(today.tv_sec - info->st_ctim.tv_sec) * 1e3 + (double)(today.tv_nsec - info->st_ctim.tv_nsec) * 1e-6;
+    return age_ms > 0.0 && age_ms < longest_ms ? now - age_ms : now;
 }
 
 /* ---- folders ------------------------------------------------------------------------------------------------------- */
@@ -189,7 +202,7 @@ static nook_result watch_contents(nook_file_watch *watch, const char *path, cons
             !full_path(watch, inner, inner_full) || lstat(inner_full, &info) != 0)
             continue;
         if (!S_ISDIR(info.st_mode) && is_new)
-            note(watch, inner);
+            note(watch, inner, nook_clock_ms());
         else if (S_ISDIR(info.st_mode) && !hidden && !watch->flat)
             result = watch_all_in(watch, inner, &info, is_new);
     }
@@ -237,7 +250,7 @@ static void look_again(nook_file_watch *watch, const char *path)
         return;
     size_t gone = unwatch_all_in(watch, path);
     if (gone > 0 && !is_folder)
-        note(watch, path);
+        note(watch, path, nook_clock_ms());
     if (is_folder && !watch->complained)
         watch->complained = watch_all_in(watch, path, &info, true) != NOOK_OK;
 }
@@ -267,9 +280,9 @@ static void on_event(uv_fs_event_t *handle, const char *name, int events, int st
     if (status != 0 || !name || !join(self->path, name, path) || !full_path(watch, path, full) ||
         is_about_itself(self, name, full, events))
         return;
-    bool is_folder = lstat(full, &info) == 0 && S_ISDIR(info.st_mode);
-    if (!is_folder)
-        note(watch, path);
+    bool exists = lstat(full, &info) == 0;
+    if (!exists || !S_ISDIR(info.st_mode))
+        note(watch, path, exists ? changed_at(&info) : nook_clock_ms());
     if (events & UV_RENAME)
         look_again(watch, path);
 }
@@ -284,7 +297,7 @@ static void look_at_base(nook_file_watch *watch, const char *base)
     if (watched && (!exists || !is_same(watched, &info))) {
         unwatch_all_in(watch, base);
         if (!exists)
-            note(watch, base);
+            note(watch, base, nook_clock_ms());
         watched = NULL;
     }
     if (!watched && exists && !watch->complained)
@@ -298,13 +311,13 @@ size_t nook_file_watch_poll(nook_file_watch *watch, nook_file_changed *changed, 
         look_at_base(watch, watch->bases[i]);
     if (!nook_file_changes_due(&watch->changes, nook_clock_ms()))
         return 0;
-    watch->seen_ms = watch->changes.first_ms;
+    watch->changed_ms = watch->changes.first_ms;
     return nook_file_changes_tell(&watch->changes, changed, user);
 }
 
-double nook_file_watch_seen_ms(const nook_file_watch *watch)
+double nook_file_watch_changed_ms(const nook_file_watch *watch)
 {
-    return watch->seen_ms;
+    return watch->changed_ms;
 }
 
 size_t nook_file_watch_folder_count(const nook_file_watch *watch)

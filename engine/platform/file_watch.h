@@ -51,8 +51,8 @@ typedef void nook_file_changed(void *user, const char *path);
  */
 size_t nook_file_watch_poll(nook_file_watch *watch, nook_file_changed *changed, void *user);
 
-/** When the first of the changes that the last poll gave was seen, by nook_clock_ms; 0 before there was one. */
-double nook_file_watch_seen_ms(const nook_file_watch *watch);
+/** When the first of the changes that the last poll gave was made, by nook_clock_ms; 0 before there was one. */
+double nook_file_watch_changed_ms(const nook_file_watch *watch);
 
 /** Folders that are watched now: for reports. */
 size_t nook_file_watch_folder_count(const nook_file_watch *watch);

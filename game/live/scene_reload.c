@@ -28,7 +28,7 @@ struct nook_scene_reload {
     nook_scene_loading *load; /* NULL: nothing is under way */
     nook_loaded_scene waiting;
     bool changed; /* since the load under way began */
-    double seen_ms;
+    double changed_ms;
     char error[LINE_CAPACITY];
     nook_scene_reload_status status;
 };
@@ -243,7 +243,7 @@ bool nook_scene_reload_poll(nook_scene_reload *self)
     bool was_changed = self->changed;
     nook_file_watch_poll(self->watch, on_change, self);
     if (self->changed && !was_changed)
-        self->seen_ms = nook_file_watch_seen_ms(self->watch);
+        self->changed_ms = nook_file_watch_changed_ms(self->watch);
     if (self->load && nook_scene_loading_is_done(self->load)) {
         if (self->changed)
             drop_load(self); /* what it read is not what is there now */
@@ -278,9 +278,8 @@ static nook_result swap(nook_scene_reload *self, nook_play *play)
     self->error[0] = '\0';
     self->status.reloads++;
     self->status.swap_ms = nook_clock_ms() - start;
-    self->status.last_ms = nook_clock_ms() - self->seen_ms;
-    nook_log_info("scene: %s reloaded, %.0f ms after the change was seen", self->stage->scene->path,
-                  self->status.last_ms);
+    self->status.last_ms = nook_clock_ms() - self->changed_ms;
+    nook_log_info("scene: %s reloaded, %.0f ms after the change", self->stage->scene->path, self->status.last_ms);
     return NOOK_OK;
 }
 

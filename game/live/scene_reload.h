@@ -14,7 +14,7 @@ typedef struct nook_scene_reload_status {
     const char *error; /**< Why what is on disk is not shown: a line; "" when it is. */
     bool loading;      /**< Something is read or baked in the background. */
     uint32_t reloads, failures;
-    double last_ms; /**< From the first sight of the last change until it was exchanged; 0: none yet. */
+    double last_ms; /**< From the last change, on disk, until it was exchanged; 0: none yet. */
     double swap_ms; /**< Of that, what the frame waited for: uploads. */
 } nook_scene_reload_status;
 

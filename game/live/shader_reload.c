@@ -109,9 +109,9 @@ static void reload(nook_shader_reload *self)
     if (self->report.reloaded == 0)
         return;
     status->reloads += self->report.reloaded;
-    status->last_ms = nook_clock_ms() - nook_file_watch_seen_ms(self->watch);
+    status->last_ms = nook_clock_ms() - nook_file_watch_changed_ms(self->watch);
     status->building_ms = self->report.ms;
-    nook_log_info("shaders: %u %s reloaded, %.0f ms after the change was seen (%s%s)", self->report.reloaded,
+    nook_log_info("shaders: %u %s reloaded, %.0f ms after the change (%s%s)", self->report.reloaded,
                   self->report.reloaded == 1 ? "program" : "programs", status->last_ms, some_change(self),
                   self->changed_count > 1 ? ", ..." : "");
 }

@@ -12,7 +12,7 @@ typedef struct nook_shader_status {
     uint32_t failed;    /**< Programs of which that is said. */
     uint32_t reloads;   /**< Programs replaced since the start. */
     uint32_t failures;  /**< Saves since the start after which some program did not build. */
-    double last_ms;     /**< From the first sight of the last change until its programs were replaced; 0: none yet. */
+    double last_ms;     /**< From the last change, on disk, until its programs were replaced; 0: none yet. */
     double building_ms; /**< Of that, what the driver took. */
 } nook_shader_status;
 
