@@ -57,6 +57,13 @@ static int close_stage(void **state)
     return wrong;
 }
 
+static void set_setting(fixture *f, uint32_t view, const char *text)
+{
+    nook_live_view *v = &nook_live_state(f->live)->views[view];
+    memset(v->setting, 0, sizeof v->setting);
+    snprintf(v->setting, sizeof v->setting, "%s", text);
+}
+
 static int set_up(void **state)
 {
     fixture *f = *state;
@@ -70,7 +77,10 @@ static int set_up(void **state)
     memset(&f->input, 0, sizeof f->input);
     f->input.width = WIDTH, f->input.height = HEIGHT, f->input.content_scale = 1.0;
     f->input.mouse_x = 0.5 * WIDTH, f->input.mouse_y = 0.9 * HEIGHT;
-    return nook_live_create(&desc, &f->live) != NOOK_OK;
+    if (nook_live_create(&desc, &f->live) != NOOK_OK)
+        return -1;
+    set_setting(f, 0, "volume rays=1 ao.scale=quarter"); /* quick, unless a test asks for more */
+    return 0;
 }
 
 static int tear_down(void **state)
@@ -79,13 +89,6 @@ static int tear_down(void **state)
     nook_live_destroy(f->live);
     f->live = NULL;
     return nook_gpu_check(f->stage.gpu, "the live views");
-}
-
-static void set_setting(fixture *f, uint32_t view, const char *text)
-{
-    nook_live_view *v = &nook_live_state(f->live)->views[view];
-    memset(v->setting, 0, sizeof v->setting);
-    snprintf(v->setting, sizeof v->setting, "%s", text);
 }
 
 /* A frame with the input as it is; keys and clicks are short. */
