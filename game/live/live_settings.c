@@ -50,7 +50,7 @@ void live_list_techniques(nook_live *live, const char *const *names, uint32_t co
     const nook_ao_technique *technique;
     for (uint32_t i = 0; !names && i < LIVE_TECHNIQUES && (technique = nook_ao_technique_at(ao, i)); i++)
         snprintf(live->techniques[live->technique_count++], sizeof live->techniques[0], "%s", technique->name);
-    for (uint32_t i = 0; i < count && i < LIVE_TECHNIQUES; i++)
+    for (uint32_t i = 0; names && i < count && i < LIVE_TECHNIQUES; i++)
         snprintf(live->techniques[live->technique_count++], sizeof live->techniques[0], "%s", names[i]);
 }
 

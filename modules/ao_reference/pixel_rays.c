@@ -75,8 +75,8 @@ static double trace_packet(const pixel_work *work, pixel_rays *rays, const ray_p
     float directions[3][TRACER_PACKET] = { { 0.0f } }, distances[TRACER_PACKET];
     double sum = 0.0;
     aim(rays, points, count, directions);
-    tracer_distances(work->tracer, rays->origin, (const float(*)[TRACER_PACKET])directions, count, (float)pass->r_max,
-                     pass->falloff == NOOK_FALLOFF_HARD, distances);
+    tracer_distances(work->triangles, rays->origin, (const float(*)[TRACER_PACKET])directions, count,
+                     (float)pass->r_max, pass->falloff == NOOK_FALLOFF_HARD, distances);
     for (uint32_t i = 0; i < count; i++)
         sum += rho(pass, distances[i]);
     return sum;
@@ -116,7 +116,7 @@ double reference_trace_shares(const pixel_work *work, uint32_t x, uint32_t y, do
         float directions[3][TRACER_PACKET] = { { 0.0f } }, distances[TRACER_PACKET];
         uint32_t instances[TRACER_PACKET], count = packet_at(work, first);
         aim(&rays, work->points + first, count, directions);
-        tracer_hits(work->tracer, rays.origin, (const float(*)[TRACER_PACKET])directions, count,
+        tracer_hits(work->triangles, rays.origin, (const float(*)[TRACER_PACKET])directions, count,
                     (float)work->pass->r_max, distances, instances);
         for (uint32_t i = 0; i < count; i++) {
             double part = rho(work->pass, distances[i]) / work->count;

@@ -7,7 +7,7 @@
 /** What the rays of a picture have in common. Borrows all; may be used by many threads at once. */
 typedef struct pixel_work {
     const nook_ao_pass *pass; /**< Sizes, rays of view, r_max, falloff, depth_error; nothing of the GPU. */
-    const tracer *tracer;
+    const tracer *triangles;
     const float *depth;      /**< width * height. */
     const uint16_t *normal;  /**< RG pairs. */
     const ray_point *points; /**< `count`, by their place. */

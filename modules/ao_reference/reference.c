@@ -83,7 +83,7 @@ static nook_result trace_with_memory(const nook_ao_pass *pass, const reference_p
     ray_points_fill(points, (uint32_t)params->rays);
     image_work work = { .pass = pass,
                         .rays = { .pass = pass,
-                                  .tracer = t,
+                                  .triangles = t,
                                   .depth = depth,
                                   .normal = normal,
                                   .points = points,

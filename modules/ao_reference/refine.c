@@ -201,7 +201,7 @@ nook_result nook_refine_start(nook_refine *r, const nook_refine_desc *desc, nook
         return nook_fail(NOOK_E_MEMORY, "refinement: no memory for a picture");
     }
     r->work = (pixel_work){ .pass = &r->frame.pass,
-                            .tracer = r->tracer,
+                            .triangles = r->tracer,
                             .depth = r->frame.depth,
                             .normal = r->frame.normal,
                             .points = r->points };
