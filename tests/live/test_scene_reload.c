@@ -2,6 +2,7 @@
 #include "engine/core/clock.h"
 #include "engine/core/file.h"
 #include "game/compare/camera.h"
+#include "game/live/scene_loading.h"
 #include "game/live/scene_reload.h"
 #include "modules/measure/picture.h"
 #include "tests/support/file_tree.h"
@@ -269,34 +270,75 @@ static void test_texture_in_a_folder_that_was_not_watched_is_followed(void **sta
     }
 }
 
-static void test_many_reloads_leak_nothing(void **state)
+/* What a process can leak. */
+typedef struct holdings {
+    long resident_kb;
+    int open_files, objects;
+    uint64_t volume_bytes;
+} holdings;
+
+static holdings count_held(const fixture *self)
 {
-    enum { RELOADS = 40, WARM = 10 };
-    fixture *self = *state;
     const nook_gl *gl = self->stage.gpu->gl;
     nook_ao_statistics statistics;
+    nook_ao_get_statistics(self->stage.ao, &statistics);
+    holdings held = { file_tree_resident_kb(), file_tree_open_files(), 0, statistics.volume_bytes };
+    for (GLuint name = 1; name < 100000; name++)
+        held.objects += gl->IsTexture(name) + gl->IsBuffer(name) + gl->IsProgram(name);
+    return held;
+}
+
+static void assert_holds_no_more(const fixture *self, const holdings *before)
+{
+    holdings now = count_held(self);
+    assert_int_equal(now.open_files, before->open_files);
+    assert_int_equal(now.objects, before->objects);
+    assert_true(now.volume_bytes == before->volume_bytes);
+    if (now.resident_kb - before->resident_kb > 2048)
+        fail_msg("%ld kB more", now.resident_kb - before->resident_kb);
+}
+
+static void test_saves_in_a_row_leak_nothing(void **state)
+{
+    enum { SAVES = 20, WARM = 5 };
+    fixture *self = *state;
+    holdings held = { 0 };
     picture p;
-    int open_files = file_tree_open_files(), textures = 0, found = 0;
-    long resident = 0;
-    uint64_t bytes = 0;
-    for (int i = 0; i < RELOADS; i++) {
+    for (int i = 0; i < SAVES; i++) {
         write_colour(self, (uint8_t)(i % 2 ? 255 : 0), 0, 0);
         reload(self, NULL);
         draw(self, NOOK_VIEW_LIT, p);
-        nook_ao_get_statistics(self->stage.ao, &statistics);
-        found = 0;
-        for (GLuint name = 1; name < 2000; name++)
-            found += gl->IsTexture(name) + gl->IsBuffer(name);
-        if (i == WARM) {
-            resident = file_tree_resident_kb();
-            textures = found;
-            bytes = statistics.volume_bytes;
-        }
+        if (i == WARM)
+            held = count_held(self);
     }
-    assert_int_equal(found, textures);
-    assert_true(statistics.volume_bytes == bytes);
-    assert_int_equal(file_tree_open_files(), open_files);
-    assert_true(file_tree_resident_kb() - resident < 2048);
+    assert_holds_no_more(self, &held);
+}
+
+/* Without the files' time to settle, which would take minutes: what a reload does after it. */
+static void test_a_thousand_exchanges_leak_nothing(void **state)
+{
+    enum { EXCHANGES = 1000, WARM = 100 };
+    fixture *self = *state;
+    const nook_scene_loading_desc desc = { .path = self->path, .resolution = 16, .r_max = 0.5, .cache = self->cache };
+    char why[256];
+    holdings held = { 0 };
+    picture p;
+    for (int i = 0; i < EXCHANGES; i++) {
+        nook_scene_loading *loading;
+        nook_loaded_scene loaded;
+        nook_stage_scene made, before;
+        assert_int_equal(nook_scene_loading_start(&desc, &loading), NOOK_OK);
+        assert_int_equal(nook_scene_loading_finish(loading, &loaded, why, sizeof why), NOOK_OK);
+        assert_int_equal(nook_stage_scene_upload(&self->stage, loaded.scene, &loaded.volumes, &made), NOOK_OK);
+        before = nook_stage_exchange_scene(&self->stage, &made);
+        nook_stage_scene_destroy(&before);
+        if (i % 50 == 0)
+            draw(self, NOOK_VIEW_LIT, p);
+        if (i == WARM)
+            held = count_held(self);
+    }
+    draw(self, NOOK_VIEW_LIT, p);
+    assert_holds_no_more(self, &held);
 }
 
 static void test_destroying_waits_for_the_background(void **state)
@@ -442,7 +484,8 @@ int main(void)
         TEST(test_deleted_model_keeps_the_picture_until_it_is_back),
         TEST(test_other_files_beside_it_are_nothing),
         TEST(test_texture_in_a_folder_that_was_not_watched_is_followed),
-        TEST(test_many_reloads_leak_nothing),
+        TEST(test_saves_in_a_row_leak_nothing),
+        TEST(test_a_thousand_exchanges_leak_nothing),
         TEST(test_destroying_waits_for_the_background),
         PLAYED(test_a_game_goes_on_in_a_changed_model),
         PLAYED(test_a_game_goes_on_in_a_changed_level),
