@@ -8,7 +8,8 @@
  * Determinism  the same calls in the same order with the same seed give the same poses bit for bit, also in another process
  *              of the same build; several worlds of one process do not disturb each other (ODE's one random number
  *              generator is set before each step and kept in the world).
- * Threads      one world is used by one thread at a time. Contacts are found and solved on that thread.
+ * Threads      one world is used by one thread at a time. Contacts are found and solved on that thread; worlds of several
+ *              threads take turns, as ODE shares caches between them.
  */
 #pragma once
 #include "engine/core/result.h"
@@ -62,7 +63,7 @@ typedef struct nook_body_desc {
     double friction;    /**< Coulomb coefficient, >= 0; of two bodies the product's root counts. */
     double restitution; /**< [0, 1]; of two bodies the larger counts. */
     bool upright;       /**< Never turns: characters. */
-    bool ghost;         /**< Touches nothing, but is found by rays: marks, sensors. */
+    bool ghost;         /**< Touches nothing, but is found by rays: marks, sensors. Not dynamic. */
     uint64_t user;      /**< Yours: nook_physics_user gives it back. */
 } nook_body_desc;
 
@@ -116,7 +117,7 @@ double nook_physics_load(const nook_physics *physics, nook_body body);
 /** The same, told apart by who presses: calls `found` once for each contact, several times for one body. */
 void nook_physics_each_load(const nook_physics *physics, nook_body body,
                             void (*found)(void *user, nook_body other, double newtons), void *user);
-/** The steepest ground contact of the last step. @param out_normal up from what it stands on @return false: it hangs in the air */
+/** The least steep of what it stood on in the last step. @param out_normal up from there @return false: it hung in the air */
 bool nook_physics_ground(const nook_physics *physics, nook_body body, double out_normal[3]);
 
 typedef struct nook_ray_hit {
@@ -125,14 +126,14 @@ typedef struct nook_ray_hit {
     double normal[3]; /**< Of the surface, on the side from which the ray comes. */
 } nook_ray_hit;
 /**
- * The nearest body along a ray.
+ * The nearest body along a ray. A body in which it begins is met from within (a capsule not surely). Allocates nothing.
  * @param direction unit @param ignored up to two bodies that are looked through; {0} for none
  * @return false: nothing within `length`
  */
 bool nook_physics_ray(nook_physics *physics, const double origin[3], const double direction[3], double length,
                       const nook_body ignored[2], nook_ray_hit *out_hit);
 
-/** Calls `found` for each body whose shapes touch an upright box. */
+/** Calls `found` once for each body whose shapes touch an upright box; `found` must not ask for overlaps, add or remove. */
 void nook_physics_overlap(nook_physics *physics, const double box_min[3], const double box_max[3],
                           void (*found)(void *user, nook_body body), void *user);
 
@@ -140,8 +141,9 @@ void nook_physics_overlap(nook_physics *physics, const double box_min[3], const 
 uint64_t nook_physics_hash(const nook_physics *physics);
 
 typedef struct nook_physics_statistics {
-    uint32_t bodies, dynamic, awake, contacts; /**< Of the last step. */
-    double step_ms;                            /**< Wall time of the last step. */
+    uint32_t bodies, dynamic, awake; /**< Now. */
+    uint32_t contacts;               /**< Of the last step, sleepers' not counted. */
+    double step_ms;                  /**< Wall time of the last step. */
 } nook_physics_statistics;
 void nook_physics_get_statistics(const nook_physics *physics, nook_physics_statistics *out_statistics);
 

@@ -1,5 +1,6 @@
 #include "tests/support/physics_scene.h"
 #include <inttypes.h>
+#include <pthread.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -65,6 +66,33 @@ static void test_worlds_side_by_side_do_not_disturb_each_other(void **state)
     nook_physics_destroy(second);
 }
 
+static void *run_heap(void *user)
+{
+    nook_physics *physics = *(nook_physics **)user;
+    for (int i = 0; i < STEPS; i++)
+        if (nook_physics_step(physics) != NOOK_OK)
+            return NULL;
+    return user;
+}
+
+static void test_worlds_on_two_threads_do_not_disturb_each_other(void **state)
+{
+    (void)state;
+    nook_physics *worlds[2] = { heap(7), heap(7) };
+    pthread_t threads[2];
+    for (int i = 0; i < 2; i++)
+        assert_int_equal(pthread_create(&threads[i], NULL, run_heap, &worlds[i]), 0);
+    for (int i = 0; i < 2; i++) {
+        void *done;
+        assert_int_equal(pthread_join(threads[i], &done), 0);
+        assert_non_null(done);
+    }
+    assert_true(nook_physics_hash(worlds[0]) == nook_physics_hash(worlds[1]));
+    assert_true(nook_physics_hash(worlds[0]) == hash_of_run(7));
+    nook_physics_destroy(worlds[0]);
+    nook_physics_destroy(worlds[1]);
+}
+
 static void test_questions_change_nothing(void **state)
 {
     (void)state;
@@ -120,6 +148,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(test_two_runs_are_equal_bit_for_bit),
         cmocka_unit_test(test_another_seed_is_another_run),
         cmocka_unit_test(test_worlds_side_by_side_do_not_disturb_each_other),
+        cmocka_unit_test(test_worlds_on_two_threads_do_not_disturb_each_other),
         cmocka_unit_test(test_questions_change_nothing),
         cmocka_unit_test(test_hash_tells_a_body_that_moved_by_a_hair),
         cmocka_unit_test(test_another_process_comes_to_the_same),

@@ -119,6 +119,16 @@ static void test_ray_meets_a_mesh_from_both_sides(void **state)
     nook_physics_destroy(physics);
 }
 
+static void test_ray_that_begins_in_a_body_meets_it_from_within(void **state)
+{
+    (void)state;
+    nook_physics *physics = physics_scene_create();
+    nook_shape box = physics_scene_box(0.5, 0.5, 0.5);
+    add_static(physics, &box, 0, 0, 0);
+    assert_hit(physics, (double[3]){ 0.1, 0, 0 }, (double[3]){ 1, 0, 0 }, 0.4, (double[3]){ -1, 0, 0 });
+    nook_physics_destroy(physics);
+}
+
 static void test_ray_follows_a_body_that_moved(void **state)
 {
     (void)state;
@@ -175,6 +185,7 @@ int main(void)
         cmocka_unit_test(test_ray_looks_through_two_bodies),
         cmocka_unit_test(test_ray_finds_ghosts_that_nothing_touches),
         cmocka_unit_test(test_ray_meets_a_mesh_from_both_sides),
+        cmocka_unit_test(test_ray_that_begins_in_a_body_meets_it_from_within),
         cmocka_unit_test(test_ray_follows_a_body_that_moved),
         cmocka_unit_test(test_overlap_finds_each_body_that_touches_a_box_once),
     };
