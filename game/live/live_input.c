@@ -12,12 +12,12 @@ static const nook_live_key help[] = {
     { "1 - 9", "technique of the active view; 0: none" },
     { "M", "what it shows; Shift: back" },
     { "+ -", "more views, fewer" },
-    { "L", "three views: columns, or one beside two" },
+    { "L", "three: columns, or one beside two" },
     { "Tab", "the next view; Shift: back" },
-    { "T", "freezes the camera and traces the truth" },
+    { "T", "freezes the camera, traces the truth" },
     { "F12", "a picture, and a text of what made it" },
     { "Ctrl Z, Y", "takes changes back, does them again" },
-    { "mouse", "drags borders; frozen: tells of a pixel" },
+    { "mouse", "drags borders; tells of a frozen pixel" },
 };
 
 const nook_live_key *nook_live_help(size_t *out_count)

@@ -9,7 +9,7 @@ static const nook_overlay_colour white = { 255, 255, 255, 255 }, grey = { 190, 1
 static const nook_overlay_colour red = { 255, 110, 100, 255 }, accent = { 255, 180, 60, 255 };
 static const nook_overlay_colour border_colour = { 20, 20, 20, 255 };
 static const double note_ms = 4000.0;
-static const double message_width = 42.0, help_column = 5.5, both_panels = 54.0; /* letters' heights */
+static const double message_width = 42.0, help_column = 5.0, both_panels = 54.0; /* letters' heights */
 
 void live_note(nook_live *live, const char *format, ...)
 {
@@ -70,10 +70,12 @@ static void show_names(nook_live *live, double width, double height)
     for (uint32_t i = 0; i < live->views.count; i++) {
         const nook_rectangle *place = &live->places[i];
         char text[128];
-        double at[2] = { place->x * width / live->stage->width + 4.0 * live->scale,
-                         (live->stage->height - place->y - place->height) * height / live->stage->height +
-                             4.0 * live->scale };
+        double size[2], right = (place->x + place->width) * width / live->stage->width;
+        double top = (live->stage->height - place->y - place->height) * height / live->stage->height;
         describe_view(live, i, text, sizeof text);
+        nook_overlay_label_size(live->overlay, text, size);
+        const double at[2] = { right - size[0] - 4.0 * live->scale,
+                               top + 4.0 * live->scale }; /* games write at the left */
         bool active = i == live->views.active && live->views.count > 1;
         nook_overlay_label(live->overlay, at, active ? accent : white, text);
     }

@@ -4,6 +4,7 @@
 #include <string.h>
 
 static const double value_column = 6.0, name_column = 3.8; /* letters' heights */
+static const double least_share = 0.005;                   /* of what is hidden: less is 0 % */
 
 /* The pixel under the mouse. @return false: there is none */
 static bool pixel_of_mouse(const nook_live *live, uint32_t out[2])
@@ -48,7 +49,7 @@ static void show_shares(nook_live *live)
     uint32_t count;
     const nook_ao_occluder *occluders = nook_game_world_occluders(live->stage->world, &count);
     double hidden = 1.0 - probe->visibility;
-    for (uint32_t i = 0; i < probe->count && hidden > 0.0; i++) {
+    for (uint32_t i = 0; i < probe->count && probe->shares[i] >= least_share * hidden; i++) {
         char name[96], text[32];
         const nook_ao_occluder *o = probe->occluders[i] < count ? &occluders[probe->occluders[i]] : NULL;
         snprintf(name, sizeof name, "%s", o ? live_body_name(live, o->volume, o->mesh) : "?");
