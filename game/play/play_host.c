@@ -1,5 +1,6 @@
 #include "game/play/play_host.h"
 #include "engine/core/file.h"
+#include "engine/core/log.h"
 #include "engine/module/host.h"
 #include "game/interrupt.h"
 #include "game/play/play_module.h"
@@ -88,5 +89,9 @@ nook_result nook_play_host_run(const char *root, int argc, char **argv)
     const nook_module_arguments arguments = { .root = root, .argc = argc, .argv = argv };
     find_live_folder(folder, sizeof folder);
     nook_result result = nook_play_host_create(&nook_play_module, folder[0] ? folder : NULL, &arguments, &play);
-    return result == NOOK_OK ? run(play.host) : result;
+    if (result != NOOK_OK)
+        return result;
+    if (folder[0])
+        nook_log_info("play: code that ./nook watch builds is taken over from %s", folder);
+    return run(play.host);
 }
