@@ -8,6 +8,7 @@ times=${1-20}
 work=$(mktemp -d)
 game='' watch=''
 trap 'kill $game $watch 2>/dev/null || true; wait; rm -rf "$work"' EXIT
+trap 'exit 1' INT TERM
 git clone -q . "$work/nook"
 cd "$work/nook"
 ./nook build
