@@ -1,4 +1,5 @@
 #include "game/play/play_window.h"
+#include "engine/core/angle.h"
 #include "engine/core/clock.h"
 #include "engine/core/file.h"
 #include "engine/core/log.h"
@@ -12,7 +13,6 @@
 #include <string.h>
 
 static const double captured_rate = 30.0; /* pictures a second */
-static const double degree = 3.14159265358979323846 / 180.0;
 
 /* ---- Opening and closing ----------------------------------------------------------------------------------------- */
 
@@ -66,7 +66,7 @@ static nook_result fill_stage(nook_play_window *w, const char *cache)
 
 static nook_camera camera_of(const nook_play_window *w, double alpha)
 {
-    return nook_session_camera(w->play.session, alpha, (double)w->preferences.field_of_view * degree);
+    return nook_session_camera(w->play.session, alpha, (double)w->preferences.field_of_view * NOOK_DEGREE);
 }
 
 static nook_result make_live(nook_play_window *w, const char *pictures)
