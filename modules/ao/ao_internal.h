@@ -88,6 +88,7 @@ struct nook_ao {
     nook_ao_statistics statistics;
     ao_region recorded; /**< By the last record. */
     uint32_t scale;     /**< Of the last record: its exponent. */
+    int counting;       /**< Of the last record: frame.counting of shaders/ao/counter.glsl. */
 };
 
 void ao_slot_release(nook_ao *ao, ao_slot *slot); /**< By its technique's code. */

@@ -1,12 +1,15 @@
 /* Our own passes around a technique: its inputs before it, filter and upscaling after it. */
 #include "modules/ao/ao_internal.h"
+#include <stdio.h>
 
 nook_result ao_dispatch_over(nook_ao *ao, const char *path, const char *defines, uint32_t width, uint32_t height)
 {
     nook_program program;
+    char all[64];
+    snprintf(all, sizeof all, "%s%s", defines, ao->counting ? "#define COUNTING\n" : "");
     nook_bind_uniform(ao->gpu, 0, ao->frame);
     nook_bind_storage(ao->gpu, AO_BINDING_COUNTER, ao->counter);
-    nook_result result = nook_program_compute(ao->gpu, path, defines, &program);
+    nook_result result = nook_program_compute(ao->gpu, path, all, &program);
     if (result == NOOK_OK)
         nook_dispatch(ao->gpu, program, nook_groups(width, 16), nook_groups(height, 8), 1);
     return result;

@@ -149,7 +149,7 @@ static nook_ao_pass make_pass(nook_ao *ao, const nook_ao_frame *frame, uint32_t 
         .visibility = direct ? targets->visibility : trace->visibility,
         .frame = ao->frame,
         .counter = ao->counter,
-        .counting = ao->shared.count,
+        .counting = ao->counting,
         .width = trace->visibility.width,
         .height = trace->visibility.height,
         .begin = { (uint32_t)region->begin[0], (uint32_t)region->begin[1] },
@@ -201,6 +201,7 @@ nook_result ao_begin(nook_ao *ao, const nook_ao_frame *frame, const ao_work *wor
     nook_gpu_check(ao->gpu, "what was done before nook_ao_record"); /* the host's errors are not ours */
     uint32_t instances = 0;
     ao->scale = work->scale;
+    ao->counting = work->counting;
     ao->recorded = ao_region_make(ao, &frame->part, 1u << work->scale, work->passes);
     nook_matrix view_from_world;
     memcpy(view_from_world.m, frame->view_from_world, sizeof view_from_world.m);

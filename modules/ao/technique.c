@@ -3,6 +3,11 @@
 
 enum { LOCATION_PART = 0 };
 
+const char *nook_ao_pass_defines(const nook_ao_pass *pass)
+{
+    return pass->counting ? "#define COUNTING\n" : "";
+}
+
 void nook_ao_pass_groups(const nook_ao_pass *pass, uint32_t local_x, uint32_t local_y, uint32_t out_groups[2])
 {
     out_groups[0] = nook_groups(pass->end[0] - pass->origin[0], local_x);
@@ -19,7 +24,7 @@ static void dispatch(const nook_ao_pass *pass, nook_program program, uint32_t lo
 nook_result nook_ao_pass_dispatch(const nook_ao_pass *pass, const char *shader_path, uint32_t local_x, uint32_t local_y)
 {
     nook_program program;
-    nook_result result = nook_program_compute(pass->gpu, shader_path, "", &program);
+    nook_result result = nook_program_compute(pass->gpu, shader_path, nook_ao_pass_defines(pass), &program);
     if (result == NOOK_OK)
         dispatch(pass, program, local_x, local_y);
     return result;
@@ -30,7 +35,7 @@ nook_result nook_ao_pass_dispatch_parts(const nook_ao_pass *pass, const char *sh
 {
     assert(turns_per_item >= 1 && turns_per_item <= NOOK_AO_TURNS_PER_DISPATCH);
     nook_program program;
-    nook_result result = nook_program_compute(pass->gpu, shader_path, "", &program);
+    nook_result result = nook_program_compute(pass->gpu, shader_path, nook_ao_pass_defines(pass), &program);
     if (result != NOOK_OK)
         return result;
     int32_t items = NOOK_AO_TURNS_PER_DISPATCH / turns_per_item;

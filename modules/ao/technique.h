@@ -45,7 +45,7 @@ typedef struct nook_ao_pass {
         frame; /**< Uniform block of shaders/ao/frame.glsl: sizes, rays of view, r_max, falloff, seed. Binding 0. */
     nook_buffer params;  /**< Uniform block of this technique's params.def. Binding 1. */
     nook_buffer counter; /**< Storage, texture fetches and values out of range. Binding 7: shaders/ao/counter.glsl. */
-    int counting;
+    int counting;        /**< Not 0: something is counted, see nook_ao_pass_defines. */
     uint32_t width, height; /**< Of depth, normal and visibility, pixels. */
     /** Only these pixels are wanted, begin[] to end[] - 1: all others must keep what visibility holds. */
     uint32_t begin[2], end[2];
@@ -98,6 +98,9 @@ typedef struct nook_ao_technique {
     /** @param params  the struct made from params.def; the same bytes are in pass->params */
     nook_result (*record)(void *state, const void *params, const nook_ao_pass *pass);
 } nook_ao_technique;
+
+/** Lines that programs of a technique are compiled with: those that count, when the pass does. */
+const char *nook_ao_pass_defines(const nook_ao_pass *pass);
 
 /** Groups of a dispatch that starts at origin and covers the wanted pixels. @param local_x, local_y  local size, pixels */
 void nook_ao_pass_groups(const nook_ao_pass *pass, uint32_t local_x, uint32_t local_y, uint32_t out_groups[2]);

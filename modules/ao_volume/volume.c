@@ -120,7 +120,7 @@ static nook_result record(void *state, const void *params, const nook_ao_pass *p
     nook_program program;
     nook_result result = nook_direction_texture_fit(&s->directions, pass->gpu, work.rays, pass->seed);
     if (result == NOOK_OK)
-        result = nook_program_compute(pass->gpu, "shaders/ao/volume.comp.glsl", "", &program);
+        result = nook_program_compute(pass->gpu, "shaders/ao/volume.comp.glsl", nook_ao_pass_defines(pass), &program);
     return result == NOOK_OK ? trace(s, pass, &work, program) : result;
 }
 

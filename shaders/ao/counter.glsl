@@ -1,5 +1,6 @@
 #pragma once
 // What a pass reads and writes, counted while ao.count = 1: nook_ao_statistics. Every texture fetch of an AO shader goes through here.
+// Define: COUNTING, else nothing is counted (nook_ao_pass_defines); a software driver would run through all of it in any case.
 #include "ao/frame.glsl"
 layout(std430, binding = 7) buffer Counter {
     uint fetches_low, fetches_high; // 64 bits
@@ -39,6 +40,7 @@ float bounded(float visibility)
     return clamp(visibility, 0.0, 1.0);
 }
 
+#ifdef COUNTING
 // Only of pixels that are wanted. No two invocations of a dispatch share one.
 void add_to_pixels(ivec2 first, int side)
 {
@@ -59,18 +61,26 @@ void add_to_sums()
         atomicAdd(counter.outside, outside);
 }
 
+void add_seen(float depth)
+{
+    if ((frame.counting & COUNT_SUMS) != 0 && depth > 0.0)
+        atomicAdd(counter.seen, 1u);
+}
+#endif
+
 // `first`, `side`: the full-size pixels that the work was for.
 void add_counts_of(ivec2 first, int side)
 {
+#ifdef COUNTING
     if ((frame.counting & COUNT_SUMS) != 0)
         add_to_sums();
     if ((frame.counting & COUNT_PIXELS) != 0 && fetches > 0u)
         add_to_pixels(first, side);
+#endif
 }
 
 // Call at the end of main(), in every invocation of a trace that has fetched or computed something.
 void add_counts()
 {
-    if (frame.counting != 0)
-        add_counts_of(invocation_pixel() * frame.scale, frame.scale);
+    add_counts_of(invocation_pixel() * frame.scale, frame.scale);
 }

@@ -22,6 +22,10 @@ const int RING = 16;
 const float GOLDEN_ANGLE = 2.39996323;
 const float SLANT_MIN = 0.5; // a disc of 4 pixels then still covers the 4x4 pixels that share one set of rays
 
+struct Mean {
+    float reference, sum, weights;
+};
+
 float trace_depth(ivec2 q)
 {
     return fetch(depth_trace_texture, q).r;
@@ -49,6 +53,28 @@ void add_sample(inout Mean mean, Guide guide, ivec2 q, float window)
         return;
     mean.sum += window * weight * (trace_visibility(q) - mean.reference);
     mean.weights += window * weight;
+}
+
+// When no sample lies on the pixel's own surface (the bottom of a joint that the trace has jumped over), one alone would show
+// its noise: all around have a say, those near the pixel's plane most.
+void add_around(inout Mean mean, Guide guide, vec2 centre)
+{
+    ivec2 base = ivec2(round(centre));
+    for (int i = 0; i < 25; i++) {
+        ivec2 q = base + ivec2(i % 5 - 2, i / 5 - 2);
+        if (any(lessThan(q, ivec2(0))) || any(greaterThanEqual(q, frame.size)))
+            continue;
+        float depth = trace_depth(q);
+        vec2 covered = clamp(2.5 - abs(vec2(q) - centre), 0.0, 1.0);
+        float weight = covered.x * covered.y / (1.0 + pow(plane_distance(guide, view_position(q, depth)), 2.0));
+        if (!(depth > 0.0 && weight > 0.0))
+            continue;
+        float visibility = trace_visibility(q);
+        if (mean.weights == 0.0)
+            mean.reference = visibility; // the one given may have seen nothing
+        mean.sum += weight * (visibility - mean.reference);
+        mean.weights += weight;
+    }
 }
 
 // Disc to ellipse: the surface's slant shortens it along the gradient of depth.

@@ -1,5 +1,5 @@
 // Joint bilateral upscaling of the filtered trace (Kopf et al. 2007): of the four trace pixels around each full-resolution pixel,
-// bilinear weights times how much each lies on the pixel's surface. Where none does, all around have a say. Define: HAS_NORMAL,
+// bilinear weights times how much each lies on the pixel's surface; where none does, all around have a say. Define: HAS_NORMAL,
 // the host gives normals; to rebuild them too, just in case, would cost a software driver as much as if all were rebuilt.
 #include "ao/guide.glsl"
 #include "ao/host.glsl"
@@ -7,55 +7,76 @@ layout(local_size_x = 16, local_size_y = 8) in;
 layout(binding = 2) uniform sampler2D filtered_trace; // xyz: normal times depth, 0 without geometry; w: visibility
 layout(binding = 0, r32f) uniform writeonly image2D visibility_out;
 
-float trace_depth(ivec2 q)
+struct Mean {
+    float reference, sum, weights;
+};
+
+void add(inout Mean mean, float visibility, float weight)
 {
-    return length(fetch(filtered_trace, q).xyz);
+    mean.reference = mean.weights == 0.0 && weight > 0.0 ? visibility : mean.reference;
+    mean.sum += weight * (visibility - mean.reference);
+    mean.weights += weight;
 }
 
-float trace_visibility(ivec2 q)
+// Position of a sample at trace pixel q, from its normal times its depth; also one over the depth.
+vec3 sample_position(ivec2 q, vec3 normal_depth, out float inverse)
 {
-    return fetch(filtered_trace, q).w;
+    float square = dot(normal_depth, normal_depth);
+    inverse = inversesqrt(max(square, 1e-37));
+    return view_position(q, square * inverse);
 }
 
-// filter.comp.glsl's weight in one exponential. 0 where there is no geometry.
-float sample_weight(Guide guide, ivec2 q, vec3 normal_depth)
+// filter.comp.glsl's weight in one exponential. 0 where there is no geometry; always a number.
+float weight_on_surface(Guide guide, ivec2 q, vec3 normal_depth)
 {
     const float LOG2_E = 1.44269504;
-    float square = dot(normal_depth, normal_depth), inverse = inversesqrt(max(square, 1e-37));
-    float plane = plane_distance(guide, view_position(q, square * inverse));
+    float inverse, plane = plane_distance(guide, sample_position(q, normal_depth, inverse));
     float facing = max(dot(guide.normal, normal_depth) * inverse, 1e-6);
     float weight = exp2(log2(facing) * frame.filter_normal - plane * plane * LOG2_E);
-    return square > 0.0 && weight >= WEIGHT_MIN ? weight : 0.0; // nor has one a say that is not a number
+    return normal_depth != vec3(0.0) && weight >= WEIGHT_MIN ? weight : 0.0;
 }
 
-// Bilinear; the sample that counts most is the one that the others are counted from.
-float upscaled(vec2 centre, Guide guide)
+// When no sample lies on the pixel's own surface (the bottom of a joint that the trace has jumped over): by the plane alone.
+float weight_around(Guide guide, ivec2 q, vec3 normal_depth)
+{
+    float inverse, plane = plane_distance(guide, sample_position(q, normal_depth, inverse));
+    return normal_depth != vec3(0.0) && plane < 1e15 ? 1.0 / (1.0 + plane * plane) : 0.0;
+}
+
+// The four around a point, bilinear. A lone one on the surface counts also where it is the farthest.
+void add_corners(inout Mean mean, Guide guide, vec2 centre)
 {
     ivec2 base = ivec2(floor(centre));
     vec2 part = centre - vec2(base);
-    float weights[4], values[4], best = 0.0, reference = 0.0;
     for (int i = 0; i < 4; i++) {
         ivec2 step = ivec2(i & 1, i >> 1), q = clamp(base + step, ivec2(0), frame.size - 1);
         vec2 near = mix(1.0 - part, part, vec2(step));
         vec4 texel = fetch(filtered_trace, q);
-        // A lone neighbour on the surface counts also where it is the farthest.
-        weights[i] = sample_weight(guide, q, texel.xyz) * (near.x * near.y + 1e-4);
-        values[i] = texel.w;
-        reference = weights[i] > best ? values[i] : reference;
-        best = max(best, weights[i]);
+        add(mean, texel.w, weight_on_surface(guide, q, texel.xyz) * (near.x * near.y + 1e-4));
     }
-    if (best <= 0.0) {
-        ivec2 nearest = clamp(ivec2(round(centre)), ivec2(0), frame.size - 1);
-        Mean mean = Mean(trace_visibility(nearest), 0.0, 0.0);
-        add_around(mean, guide, centre);
-        return mean.weights > 0.0 ? mean.reference + mean.sum / mean.weights : mean.reference;
+}
+
+// Those of 5x5 around a point. A loop that a software driver leaves at once where nothing is wanted: it would run the inside of an
+// if in any case.
+void add_around(inout Mean mean, Guide guide, vec2 centre)
+{
+    ivec2 base = ivec2(round(centre)) - 2;
+    int wanted = mean.weights > 0.0 ? 0 : 25;
+    for (int i = 0; i < wanted; i++) {
+        ivec2 q = base + ivec2(i % 5, i / 5), inside = clamp(q, ivec2(0), frame.size - 1);
+        vec2 covered = clamp(2.5 - abs(vec2(q) - centre), 0.0, 1.0);
+        vec4 texel = fetch(filtered_trace, inside);
+        float weight = weight_around(guide, inside, texel.xyz) * covered.x * covered.y;
+        add(mean, texel.w, q == inside ? weight : 0.0);
     }
-    float sum = 0.0, total = 0.0;
-    for (int i = 0; i < 4; i++) {
-        sum += weights[i] * (values[i] - reference);
-        total += weights[i];
-    }
-    return reference + sum / total;
+}
+
+float upscaled(vec2 centre, Guide guide)
+{
+    Mean mean = Mean(1.0, 0.0, 0.0);
+    add_corners(mean, guide, centre);
+    add_around(mean, guide, centre);
+    return mean.reference + (mean.weights > 0.0 ? mean.sum / mean.weights : 0.0);
 }
 
 vec3 guide_normal(ivec2 p, vec3 position)
@@ -79,7 +100,8 @@ void main()
         result = bounded(upscaled(trace_centre(p), make_guide(position, guide_normal(p, position))));
     }
     imageStore(visibility_out, p, vec4(result));
-    if ((frame.counting & COUNT_SUMS) != 0 && depth > 0.0)
-        atomicAdd(counter.seen, 1u);
+#ifdef COUNTING
+    add_seen(depth);
+#endif
     add_counts_of(p, 1);
 }
