@@ -221,6 +221,10 @@ static void load_with_buffer(const char *uri)
     nook_scene *scene = test_scene_must_load(test_gltf_write("uri.gltf", text));
     assert_int_equal(scene->triangle_count, 1);
     assert_true(scene->bounds_max[0] == 1.0);
+    assert_string_equal(scene->files[0], scene->path);
+    assert_int_equal(scene->file_count, strncmp(uri, "data:", 5) == 0 ? 1 : 2);
+    for (uint32_t i = 0; i < scene->file_count; i++)
+        assert_true(nook_file_exists(scene->files[i]));
     nook_scene_destroy(scene);
 }
 

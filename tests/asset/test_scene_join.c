@@ -176,6 +176,17 @@ static void test_lights_and_cameras_belong_to_their_nodes(void **state)
     destroy(&p);
 }
 
+static void test_files_are_those_of_both_each_once(void **state)
+{
+    (void)state;
+    pair p = join(true, NULL, 0);
+    assert_int_equal(p.first->file_count, 1);
+    assert_string_equal(p.first->files[0], p.second->files[0]); /* the test writes over its file */
+    assert_int_equal(p.joined->file_count, 1);
+    assert_string_equal(p.joined->files[0], p.first->files[0]);
+    destroy(&p);
+}
+
 static void test_a_library_brings_meshes_and_no_nodes(void **state)
 {
     (void)state;
@@ -233,6 +244,7 @@ int main(void)
         cmocka_unit_test(test_triangles_are_those_of_their_own_vertices),
         cmocka_unit_test(test_materials_and_pictures_are_their_own_and_the_default_stays_last),
         cmocka_unit_test(test_lights_and_cameras_belong_to_their_nodes),
+        cmocka_unit_test(test_files_are_those_of_both_each_once),
         cmocka_unit_test(test_a_library_brings_meshes_and_no_nodes),
         cmocka_unit_test(test_scenes_made_by_code_are_joined_as_well),
         cmocka_unit_test(test_instances_draw_the_mesh_of_their_node_where_they_are_put),
