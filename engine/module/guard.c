@@ -48,12 +48,11 @@ static void end_call(int number, siginfo_t *info, void *context)
 }
 
 /* On a stack of its own: a crash may be that of a stack that is full. */
-static void listen(guard *own, char *stack)
+static void listen(guard *own, const stack_t *stack)
 {
-    const stack_t alternative = { .ss_sp = stack, .ss_size = STACK_SIZE };
     struct sigaction action = { .sa_sigaction = end_call, .sa_flags = SA_SIGINFO | SA_ONSTACK };
     sigemptyset(&action.sa_mask);
-    sigaltstack(&alternative, &own->stack_before);
+    sigaltstack(stack, &own->stack_before);
     for (int i = 0; i < SIGNALS; i++)
         sigaction(signals[i], &action, &own->before[i]);
 }
@@ -68,9 +67,10 @@ static void listen_no_more(const guard *own)
 nook_crash nook_guard_call(void (*action)(void *user), void *user)
 {
     assert(!current && "guarded calls are not nested");
-    char stack[STACK_SIZE];
+    char memory[STACK_SIZE];
+    const stack_t stack = { .ss_sp = memory, .ss_size = sizeof memory };
     guard own = { .crash = { 0 } };
-    listen(&own, stack);
+    listen(&own, &stack);
     nook_parallel_inline(1);
     current = &own;
     if (sigsetjmp(own.back, 1) == 0)

@@ -4,6 +4,11 @@
 #include "tests/module/counter.h"
 #include <stdlib.h>
 
+#ifndef ADDER_NAME /* for those who look at this file alone */
+#define ADDER_NAME "adder_a"
+#define ADDER_STEP 1
+#endif
+
 static int32_t add(int32_t value)
 {
 #ifdef ADDER_CRASHES

@@ -6,6 +6,10 @@
 #define NOOK_PARAM_FILE "modules/ao_ssao/params.def"
 #include "engine/core/param_block.inl"
 
+#ifndef DARK_VALUE /* for those who look at this file alone */
+#define DARK_VALUE 0.0f
+#endif
+
 static nook_result record(void *state, const void *params, const nook_ao_pass *pass)
 {
     const float texel[4] = { DARK_VALUE, 0.0f, 0.0f, 0.0f };
