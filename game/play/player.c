@@ -43,12 +43,19 @@ static nook_result make_body(nook_session *s, const double feet[3], bool crouche
     return nook_physics_add(s->physics, &desc, out);
 }
 
+/* Straight up and straight down no camera knows which way is left. */
+static double within_neck(const nook_session *s, double pitch)
+{
+    const double most = (double)s->params.pitch * session_pi / 180.0;
+    return fmax(-most, fmin(most, pitch));
+}
+
 nook_result session_player_enter(nook_session *s)
 {
     const nook_level *level = s->desc.level;
     session_player *player = &s->player;
     *player = (session_player){ .yaw = level->yaw * session_pi / 180.0,
-                                .pitch = level->pitch * session_pi / 180.0,
+                                .pitch = within_neck(s, level->pitch * session_pi / 180.0),
                                 .eye_height = (double)s->params.eyes,
                                 .grounded = true };
     memcpy(player->feet, level->start, sizeof player->feet);
@@ -63,14 +70,14 @@ nook_result session_player_enter(nook_session *s)
 
 static void look(nook_session *s, const nook_play_input *input)
 {
-    const double unit = 2.0 * session_pi / 65536.0, most = (double)s->params.pitch * session_pi / 180.0;
+    const double unit = 2.0 * session_pi / 65536.0;
     session_player *player = &s->player;
     player->was_yaw = player->yaw;
     player->was_pitch = player->pitch;
     if ((input->buttons & NOOK_PLAY_TURN) && s->carry.thing != NOOK_NONE)
         return; /* carry.c takes it */
     player->yaw += input->yaw * unit;
-    player->pitch = fmax(-most, fmin(most, player->pitch + input->pitch * unit));
+    player->pitch = within_neck(s, player->pitch + input->pitch * unit);
     double turns = floor((player->yaw + session_pi) / (2.0 * session_pi));
     player->yaw -= turns * 2.0 * session_pi;
     player->was_yaw -= turns * 2.0 * session_pi;

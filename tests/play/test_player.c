@@ -1,3 +1,4 @@
+#include "engine/core/vector.h"
 #include "tests/support/play_room.h"
 #include <math.h>
 #include <setjmp.h>
@@ -73,6 +74,23 @@ static void test_never_looks_beyond_straight_up_or_down(void **state)
     play_room_tick(&room, &up, 10);
     assert_near(play_room_look(&room).pitch, 88.0 * 3.14159265 / 180.0, 1e-6);
     play_room_close(&room);
+}
+
+static void test_one_who_begins_looking_straight_up_or_down_has_a_camera(void **state)
+{
+    (void)state;
+    static const char *const looks[] = { "look = 0 90\n", "look = 30 -90\n" };
+    for (int i = 0; i < 2; i++) {
+        play_room room = play_room_open("", looks[i]);
+        assert_near(fabs(play_room_look(&room).pitch), 88.0 * 3.14159265 / 180.0, 1e-6);
+        for (int tick = 0; tick < 2; tick++) { /* before the first one too: it is drawn */
+            nook_camera camera = nook_session_camera(room.session, 0.5, 1.0);
+            for (int column = 0; column < 3; column++)
+                assert_near(nook_vector_length(camera.view_from_world.m + 4 * column), 1.0, 1e-9);
+            play_room_wait(&room, NOOK_PHYSICS_STEP);
+        }
+        play_room_close(&room);
+    }
 }
 
 static void test_jumps_exactly_as_high_as_it_should_and_not_again_in_the_air(void **state)
@@ -241,6 +259,7 @@ int main(void)
         cmocka_unit_test(test_walks_runs_and_creeps_as_fast_as_it_should),
         cmocka_unit_test(test_goes_where_it_looks),
         cmocka_unit_test(test_never_looks_beyond_straight_up_or_down),
+        cmocka_unit_test(test_one_who_begins_looking_straight_up_or_down_has_a_camera),
         cmocka_unit_test(test_jumps_exactly_as_high_as_it_should_and_not_again_in_the_air),
         cmocka_unit_test(test_stands_where_it_is_put_to_a_tenth_of_a_millimetre),
         cmocka_unit_test(test_low_steps_are_walked_up_and_high_ones_are_not),
