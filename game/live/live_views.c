@@ -144,7 +144,12 @@ static uint32_t edge_of(double part, uint32_t size, const double splits[2], cons
 void nook_live_views_place(const nook_live_views *views, uint32_t width, uint32_t height,
                            nook_rectangle out_places[NOOK_LIVE_VIEWS_MAX])
 {
-    assert(width >= NOOK_LIVE_VIEWS_MAX && height >= NOOK_LIVE_VIEWS_MAX);
+    assert(width > 0 && height > 0);
+    if (width < NOOK_LIVE_VIEWS_MAX || height < NOOK_LIVE_VIEWS_MAX) { /* a window that was made a slit */
+        for (uint32_t i = 0; i < views->count; i++)
+            out_places[i] = (nook_rectangle){ 0, 0, width, height };
+        return;
+    }
     place_parts parts[NOOK_LIVE_VIEWS_MAX];
     const double *splits = views->splits;
     bool thirds = views->count == 3 && views->columns;

@@ -62,7 +62,7 @@ void nook_live_views_set_count(nook_live_views *views, uint32_t count);
 /** The other arrangement of three. */
 void nook_live_views_turn(nook_live_views *views);
 
-/** Where each view lies in a picture; they cover it without a gap. Each is at least a pixel in one of 4 x 4 and more. */
+/** Where each view lies in a picture; they cover it without a gap. Each is at least a pixel; in less than 4 x 4 each is all of it. */
 void nook_live_views_place(const nook_live_views *views, uint32_t width, uint32_t height,
                            nook_rectangle out_places[NOOK_LIVE_VIEWS_MAX]);
 /** The view at a place, in parts of the picture from its top left. */

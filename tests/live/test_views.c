@@ -58,6 +58,23 @@ static void test_views_cover_the_picture_without_gap_or_overlap(void **state)
     }
 }
 
+static void test_in_a_slit_every_view_is_the_whole_picture(void **state)
+{
+    static const uint32_t sizes[][2] = { { 1, 1 }, { 3, 3 }, { 400, 1 }, { 2, 300 } };
+    (void)state;
+    for (size_t i = 0; i < NOOK_COUNT(sizes); i++) {
+        for (uint32_t count = 1; count <= NOOK_LIVE_VIEWS_MAX; count++) {
+            nook_rectangle places[NOOK_LIVE_VIEWS_MAX];
+            nook_live_views views = make(count, true);
+            nook_live_views_place(&views, sizes[i][0], sizes[i][1], places);
+            for (uint32_t k = 0; k < count; k++) {
+                assert_true(places[k].x == 0 && places[k].y == 0);
+                assert_true(places[k].width == sizes[i][0] && places[k].height == sizes[i][1]);
+            }
+        }
+    }
+}
+
 static void test_view_at_a_place_is_the_one_drawn_there(void **state)
 {
     enum { WIDTH = 400, HEIGHT = 300 };
@@ -198,6 +215,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_views_cover_the_picture_without_gap_or_overlap),
+        cmocka_unit_test(test_in_a_slit_every_view_is_the_whole_picture),
         cmocka_unit_test(test_view_at_a_place_is_the_one_drawn_there),
         cmocka_unit_test(test_border_is_found_near_it_and_moves_with_the_hand),
         cmocka_unit_test(test_borders_of_columns_stay_in_order),
