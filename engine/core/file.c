@@ -97,10 +97,33 @@ static bool write_all(int descriptor, const uint8_t *bytes, size_t size)
     return true;
 }
 
+/* A symbolic link stays one: what it leads to is written. @return false: the name is too long */
+static bool follow_links(const char *path, char out[PATH_CAPACITY])
+{
+    char *followed = realpath(path, NULL);
+    int length = snprintf(out, PATH_CAPACITY, "%s", followed ? followed : path);
+    free(followed);
+    return length >= 0 && length < PATH_CAPACITY;
+}
+
+/* What is renamed over a device or a pipe takes its place, for everyone. @return 0, or the errno that says why not */
+static int check_replaceable(const char *path)
+{
+    struct stat info;
+    if (stat(path, &info) != 0 || S_ISREG(info.st_mode))
+        return 0;
+    return S_ISDIR(info.st_mode) ? EISDIR : ENOTSUP;
+}
+
 int nook_file_try_write(const char *path, const void *bytes, size_t size)
 {
-    char temporary[PATH_CAPACITY];
-    int length = snprintf(temporary, sizeof temporary, "%s.%ld.tmp", path, (long)getpid());
+    char target[PATH_CAPACITY], temporary[PATH_CAPACITY];
+    int refused = check_replaceable(path);
+    if (refused != 0)
+        return refused;
+    if (!follow_links(path, target))
+        return ENAMETOOLONG;
+    int length = snprintf(temporary, sizeof temporary, "%s.%ld.tmp", target, (long)getpid());
     if (length < 0 || (size_t)length >= sizeof temporary)
         return ENAMETOOLONG;
     int descriptor = open(temporary, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
@@ -112,7 +135,7 @@ int nook_file_try_write(const char *path, const void *bytes, size_t size)
         written = false;
         reason = errno;
     }
-    if (written && rename(temporary, path) == 0)
+    if (written && rename(temporary, target) == 0)
         return 0;
     if (written)
         reason = errno;
@@ -131,6 +154,8 @@ nook_result nook_file_probe(const char *path)
     char probe[PATH_CAPACITY];
     if (nook_directory_exists(path))
         return nook_fail(NOOK_E_IO, "%s: a directory; give the name of a file", path);
+    if (check_replaceable(path) != 0)
+        return nook_fail(NOOK_E_IO, "%s: not a regular file; give the name of one", path);
     int length = snprintf(probe, sizeof probe, "%s.probe", path);
     bool fits = length >= 0 && (size_t)length < sizeof probe;
     int reason = fits ? nook_file_try_write(probe, "", 0) : ENAMETOOLONG;

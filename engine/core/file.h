@@ -25,7 +25,8 @@ nook_result nook_file_try_read(const char *path, nook_file *out_file, char *out_
 void nook_file_free(nook_file *file); /**< NULL and zeroed files are allowed. */
 
 /**
- * Writes a whole file: to a temporary name beside it, then renamed over `path`. Nothing is left half written.
+ * Writes a whole file: to a temporary name beside it, then renamed over `path`, or over what that links to. Nothing is left half
+ * written. Devices and pipes are refused: they would be gone.
  * @return NOOK_E_IO; then `path` is as it was before.
  */
 nook_result nook_file_write(const char *path, const void *bytes, size_t size);

@@ -40,8 +40,8 @@ typedef struct nook_play {
 } nook_play;
 
 /**
- * Reads all files. @return why not, logged in one line: NOOK_E_NOT_FOUND, NOOK_E_IO, NOOK_E_FORMAT, NOOK_E_VERSION, NOOK_E_MEMORY;
- * NOOK_E_ARG the replay is of another level; *out_play is zero then
+ * Reads all files, and looks whether the recording can be written. @return why not, logged in one line: NOOK_E_NOT_FOUND, NOOK_E_IO,
+ * NOOK_E_FORMAT, NOOK_E_VERSION, NOOK_E_MEMORY; NOOK_E_ARG the replay is of another level; *out_play is zero then
  */
 nook_result nook_play_open(const nook_play_desc *desc, nook_play *out_play);
 /** The scene, which is the caller's from now on and must outlive the play. Once. */

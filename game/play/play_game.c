@@ -79,7 +79,9 @@ nook_result nook_play_open(const nook_play_desc *desc, nook_play *out_play)
 {
     nook_play play = { .pilot_status = NOOK_PILOT_DONE };
     *out_play = (nook_play){ .seed = 0 };
-    nook_result result = read_files(desc, &play);
+    nook_result result = desc->record ? nook_file_probe(desc->record) : NOOK_OK; /* not after minutes of play */
+    if (result == NOOK_OK)
+        result = read_files(desc, &play);
     if (result != NOOK_OK) {
         clear(&play);
         return result;

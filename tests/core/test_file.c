@@ -156,6 +156,35 @@ static void test_file_write_over_a_directory_fails_and_leaves_it(void **state)
     assert_int_equal(count_entries(folder), 1);
 }
 
+static void test_file_write_refuses_what_is_no_regular_file_and_leaves_it(void **state)
+{
+    (void)state;
+    char path[CAPACITY];
+    struct stat info;
+    nook_scratch_path(path, sizeof path, "a_pipe_in_the_way");
+    assert_int_equal(mkfifo(path, 0600), 0);
+    assert_int_equal(nook_file_write(path, "x", 1), NOOK_E_IO);
+    assert_int_equal(nook_file_probe(path), NOOK_E_IO);
+    assert_true(lstat(path, &info) == 0 && S_ISFIFO(info.st_mode));
+}
+
+static void test_file_write_through_a_link_writes_what_it_leads_to(void **state)
+{
+    (void)state;
+    char folder[CAPACITY], target[CAPACITY], link[CAPACITY];
+    struct stat info;
+    nook_scratch_path(folder, sizeof folder, "elsewhere");
+    assert_int_equal(nook_directory_make(folder), NOOK_OK);
+    nook_path_join(target, sizeof target, folder, "target");
+    assert_int_equal(nook_file_write(target, "old", 3), NOOK_OK);
+    nook_scratch_path(link, sizeof link, "link");
+    assert_int_equal(symlink(target, link), 0);
+    assert_int_equal(nook_file_write(link, "new", 3), NOOK_OK);
+    assert_content(target, "new");
+    assert_true(lstat(link, &info) == 0 && S_ISLNK(info.st_mode));
+    assert_int_equal(count_entries(folder), 1);
+}
+
 static void test_file_write_into_a_missing_folder_fails(void **state)
 {
     (void)state;
@@ -237,6 +266,8 @@ int main(void)
         cmocka_unit_test(test_file_write_replaces_an_older_file_and_leaves_nothing_beside_it),
         cmocka_unit_test(test_file_write_that_runs_out_of_room_keeps_the_old_file),
         cmocka_unit_test(test_file_write_over_a_directory_fails_and_leaves_it),
+        cmocka_unit_test(test_file_write_refuses_what_is_no_regular_file_and_leaves_it),
+        cmocka_unit_test(test_file_write_through_a_link_writes_what_it_leads_to),
         cmocka_unit_test(test_file_write_into_a_missing_folder_fails),
         cmocka_unit_test(test_file_probe_says_whether_a_file_can_be_written_and_leaves_nothing),
         cmocka_unit_test(test_directory_make_makes_parents_and_accepts_what_is_there),

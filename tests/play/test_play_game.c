@@ -8,6 +8,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include <cmocka.h>
 
@@ -86,12 +87,29 @@ static void test_what_was_played_is_written_when_it_is_closed(void **state)
     nook_recording_free(&recording);
 }
 
-static void test_a_recording_that_cannot_be_written_is_said(void **state)
+static void test_a_recording_that_cannot_be_written_is_said_before_anything_is_played(void **state)
 {
     (void)state;
     nook_log_capture log;
-    nook_play play =
-        must_open(&(nook_play_desc){ .root = ".", .level = write_level(""), .record = "nowhere/out.replay" });
+    nook_play play;
+    nook_log_capture_begin(&log);
+    const nook_play_desc desc = { .root = ".", .level = write_level(""), .record = "nowhere/out.replay" };
+    assert_int_equal(nook_play_open(&desc, &play), NOOK_E_IO);
+    nook_log_capture_end();
+    assert_int_equal(log.errors, 1);
+    assert_null(play.level);
+}
+
+static void test_a_recording_that_cannot_be_written_any_more_is_said(void **state)
+{
+    (void)state;
+    char folder[1024], path[1100];
+    nook_log_capture log;
+    nook_scratch_path(folder, sizeof folder, "gone");
+    assert_int_equal(nook_directory_make(folder), NOOK_OK);
+    nook_path_join(path, sizeof path, folder, "out.replay");
+    nook_play play = must_open(&(nook_play_desc){ .root = ".", .level = write_level(""), .record = path });
+    assert_int_equal(rmdir(folder), 0);
     nook_log_capture_begin(&log);
     assert_int_equal(nook_play_close(&play), NOOK_E_IO);
     nook_log_capture_end();
@@ -160,7 +178,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_inputs_come_from_the_replay_then_the_pilot_then_the_player),
         cmocka_unit_test(test_what_was_played_is_written_when_it_is_closed),
-        cmocka_unit_test(test_a_recording_that_cannot_be_written_is_said),
+        cmocka_unit_test(test_a_recording_that_cannot_be_written_is_said_before_anything_is_played),
+        cmocka_unit_test(test_a_recording_that_cannot_be_written_any_more_is_said),
         cmocka_unit_test(test_the_tick_of_the_end_is_kept_until_a_restart),
         cmocka_unit_test(test_a_level_that_changes_on_disk_is_gone_on_in),
     };
