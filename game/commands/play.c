@@ -22,7 +22,7 @@ int nook_command_play(const nook_app *app, int argc, char **argv)
     int exit_code;
     if (!nook_play_request_read(app->root, argc, argv, &request, &exit_code))
         return exit_code;
-    if (request.headless)
+    if (request.headless && !request.capture)
         return play_headless(&request.desc);
     return nook_play_host_run(app->root, argc, argv) == NOOK_OK ? NOOK_EXIT_OK : NOOK_EXIT_FAILED;
 }

@@ -14,13 +14,17 @@ static bool can_end(const nook_level *level)
     return level->seconds > 0.0;
 }
 
+bool nook_play_is_beyond_end(const nook_play *play)
+{
+    double beyond = (double)(nook_session_look(play->session).ticks - play->ended_at) * NOOK_PHYSICS_STEP;
+    return play->ended_at > 0 && beyond >= seconds_beyond_the_end;
+}
+
 /* Whether there is nothing more to wait for. */
 static bool is_over(const nook_play *play)
 {
-    if (play->ended_at > 0) {
-        double beyond = (double)(nook_session_look(play->session).ticks - play->ended_at) * NOOK_PHYSICS_STEP;
-        return beyond >= seconds_beyond_the_end;
-    }
+    if (play->ended_at > 0)
+        return nook_play_is_beyond_end(play);
     if (!nook_play_is_free(play))
         return false;
     return play->pilot || !(play->level->seconds > 0.0); /* a replay that went astray is lost in time */

@@ -31,6 +31,7 @@ static nook_result create(void *state, const nook_module_news *news)
         return NOOK_E_ARG; /* its own line was printed */
     const nook_play_window_desc desc = { .play = request.desc,
                                          .backend = request.backend,
+                                         .no_window = request.headless,
                                          .width = (uint32_t)request.size.width,
                                          .height = (uint32_t)request.size.height,
                                          .settings = request.settings,

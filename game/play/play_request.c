@@ -1,5 +1,6 @@
 #include "game/play/play_request.h"
 #include "game/command.h"
+#include <stdio.h>
 
 static bool read_seed(void *target, const char *text)
 {
@@ -17,6 +18,14 @@ static nook_option make_path(const char *name, const char **target, const char *
 {
     return (
         nook_option){ .name = name, .kind = NOOK_OPTION_TEXT, .target = target, .placeholder = "FILE", .help = help };
+}
+
+/* An option that would do nothing. @return its name, or NULL */
+static const char *find_idle(const nook_play_request *r)
+{
+    if (!r->headless || r->capture)
+        return NULL;
+    return r->settings ? "settings" : r->from > 0.0 ? "from" : r->frames > 0 ? "frames" : NULL;
 }
 
 static const char details[] =
@@ -37,7 +46,7 @@ bool nook_play_request_read(const char *root, int argc, char **argv, nook_play_r
         { .name = "headless",
           .kind = NOOK_OPTION_FLAG,
           .target = &out->headless,
-          .help = "without a window, as fast as it goes" },
+          .help = "without a window, as fast as it goes; nothing is drawn, but for --capture" },
         { .name = "seed",
           .kind = NOOK_OPTION_CUSTOM,
           .target = &out->desc,
@@ -89,7 +98,14 @@ bool nook_play_request_read(const char *root, int argc, char **argv, nook_play_r
     nook_arguments arguments;
     if (!nook_arguments_read(&usage, argc, argv, &arguments, out_exit_code))
         return false;
+    const char *idle = find_idle(out);
+    if (idle) {
+        fprintf(stderr, "nook play: --%s: with --headless nothing is drawn; give --capture too, or leave it out\n",
+                idle);
+        *out_exit_code = NOOK_EXIT_USAGE;
+        return false;
+    }
     out->desc.level = arguments.positionals[0];
-    out->desc.skip_images = out->headless;
+    out->desc.skip_images = out->headless && !out->capture;
     return true;
 }

@@ -7,7 +7,7 @@
 /** Texts point into argv and into itself: it must stay where it was read. */
 typedef struct nook_play_request {
     nook_play_desc desc;
-    bool headless;
+    bool headless; /**< No window; nothing is drawn unless `capture` wants pictures. */
     const char *settings, *cache, *pictures, *capture; /**< capture: NULL for none. */
     double from;    /**< Seconds of the replay or pilot that pass before the first picture. */
     int32_t frames; /**< Pictures until it ends; 0: no such end. */

@@ -37,7 +37,7 @@ static nook_result open_stage(nook_play_window *w, const char *root, const nook_
                                     .scene_path = w->play.level->path,
                                     .scene = nook_play_take_scene(&w->play),
                                     .backend = desc->backend,
-                                    .want_window = true,
+                                    .want_window = !desc->no_window,
                                     .width = desc->width,
                                     .height = desc->height };
     nook_result result = nook_stage_open(&stage, &w->stage);
@@ -206,12 +206,18 @@ static double take_time(nook_play_window *w)
     return w->frame_seconds > 0.0 ? w->frame_seconds : ms / 1000.0;
 }
 
+/* What has no window ends with what drives it, to the tick: its last state is that of a game without pictures. */
+static bool has_run_out(const nook_play_window *w)
+{
+    return !w->has_window && !w->driven && (nook_play_is_free(&w->play) || nook_play_is_beyond_end(&w->play));
+}
+
 static nook_result run_ticks(nook_play_window *w, double seconds)
 {
     const double step = NOOK_PHYSICS_STEP;
     w->left = fmin(w->left + seconds, NOOK_PLAY_TICKS_PER_FRAME * step);
     nook_result result = NOOK_OK;
-    while (w->left >= step && result == NOOK_OK) {
+    while (w->left >= step && result == NOOK_OK && !has_run_out(w)) {
         nook_play_input input = nook_controls_take(&w->controls);
         if (w->restart)
             input.buttons |= NOOK_PLAY_RESTART;
@@ -310,6 +316,6 @@ nook_result nook_play_window_frame(nook_play_window *w, bool *out_goes_on)
     nook_play_tell(w);
     if (w->frames_left > 0 && --w->frames_left == 0)
         w->quit = true;
-    *out_goes_on = result == NOOK_OK && !w->quit && (w->has_window || w->driven || !nook_play_is_free(&w->play));
+    *out_goes_on = result == NOOK_OK && !w->quit && !has_run_out(w);
     return result;
 }

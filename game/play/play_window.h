@@ -23,6 +23,7 @@ enum { NOOK_PLAY_HISTORY = 128, NOOK_PLAY_TICKS_PER_FRAME = 5 };
 typedef struct nook_play_window_desc {
     nook_play_desc play;
     nook_backend backend;
+    bool no_window;         /**< Not even where there is a display. */
     uint32_t width, height; /**< Of the window, pixels. */
     const char *settings;   /**< Technique and parameters; NULL: the level's. */
     const char *cache;      /**< Baked volumes, and the player's preferences. */

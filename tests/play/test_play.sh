@@ -88,6 +88,30 @@ test_a_replay_of_another_level_or_version_is_refused_in_one_line() {
     [ "$(wc -l <<<"$said")" -eq 1 ]
 }
 
+test_headless_captures_pictures_without_a_display_and_ends_in_the_same_state() {
+    local drawn
+    printf 'nook recording 1\nlevel %s\nseed 1\n30 0 127 0 20 -50\n' tests/play/data/crate.level >"$tmp/short.replay"
+    drawn=$(unset DISPLAY WAYLAND_DISPLAY; play --replay "$tmp/short.replay" --capture "$tmp/pictures" --size 64x36 --cache "$tmp/cache" | tail -n 1)
+    [ "$drawn" = "$(play --replay "$tmp/short.replay" | tail -n 1)" ]
+    [ "$(find "$tmp/pictures" -name 'frame_*.png' | wc -l)" -eq 15 ] # of 1/30 s
+}
+
+test_options_of_pictures_that_nobody_draws_are_refused() {
+    local option said
+    for option in --settings=none.settings --from=1 --frames=3; do
+        said=$(assert_fails 2 play --replay $house.replay "$option")
+        assert_holds "$said" "nook play: ${option%%=*}: with --headless nothing is drawn"
+        [ "$(wc -l <<<"$said")" -eq 1 ]
+    done
+}
+
+test_a_recording_that_cannot_be_written_is_refused_before_the_game() {
+    local said
+    said=$(assert_fails 1 play --replay $house.replay --record "$tmp/nowhere/a.replay")
+    assert_holds "$said" "a.replay: cannot write"
+    [ "$(wc -l <<<"$said")" -eq 1 ]
+}
+
 test_levels_and_files_that_are_not_there_are_said_in_one_line() {
     local said
     said=$(assert_fails 1 play nowhere.level)
