@@ -2,26 +2,9 @@
 #include "engine/core/vector.h"
 #include <math.h>
 
-/*
- * Layers are told apart a little below the voxel boundary. Walls and floors often lie at round numbers, exactly on a
- * boundary or within rounding of it; without this they would flicker between two layers. The half step keeps the limit off
- * every snapped depth, so that rounding in the interpolation cannot matter for flat triangles.
- */
-static const double layer_bias = 64.5;
-
 /* Narrower than this, a triangle's projection along its main axis may miss every centre: the projected inscribed circle
    has at least 1 / (3 sqrt 3) of the altitude as its radius, and a circle of radius sqrt(1/2) always holds a centre. */
 static const double narrow_voxels = 4.0;
-
-static int32_t clamp_layer(int32_t layer, int32_t inner)
-{
-    return layer < 1 ? 1 : layer > inner ? inner : layer;
-}
-
-static int32_t layer_of(double depth, int32_t inner)
-{
-    return clamp_layer((int32_t)floor((depth + layer_bias) / NOOK_SUBVOXEL), inner);
-}
 
 static int32_t smallest(int32_t a, int32_t b, int32_t c)
 {
@@ -128,7 +111,7 @@ static void rasterize_row(const projection *p, const raster *r, int32_t first_u,
         for (int k = 0; k < 3; k++)
             depth += (double)(weight[k] + i * step[k]) * (double)p->depth[k];
         voxel[(r->axis + 1) % 3] = first_u + (int32_t)i;
-        voxel[r->axis] = layer_of(depth / (double)p->area, r->inner[r->axis]);
+        voxel[r->axis] = nook_grid_layer(depth / (double)p->area, r->inner[r->axis]);
         nook_voxel_grid_set(r->grid, voxel);
     }
 }
@@ -194,7 +177,7 @@ void nook_rasterize_narrow(const nook_snapped_triangle *triangle, const int32_t 
         int32_t voxel[3];
         for (int axis = 0; axis < 3; axis++) {
             double a = triangle->corner[from][axis], b = triangle->corner[to][axis];
-            voxel[axis] = layer_of(a + (b - a) * at, inner[axis]);
+            voxel[axis] = nook_grid_layer(a + (b - a) * at, inner[axis]);
         }
         if (!nook_voxel_grid_has_near(rasterized, voxel))
             nook_voxel_grid_set(out_extra, voxel);

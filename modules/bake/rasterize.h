@@ -2,19 +2,12 @@
  * rasterize.h - one triangle into a voxel grid; inside modules/bake only. What is marked: see voxelize.h.
  */
 #pragma once
+#include "modules/bake/triangle_grid.h"
 #include "modules/bake/voxel_grid.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-#define NOOK_SUBVOXEL_BITS 16
-#define NOOK_SUBVOXEL (1 << NOOK_SUBVOXEL_BITS) /**< Steps per voxel of a snapped corner. */
-
-/** Corners in steps of 1 / NOOK_SUBVOXEL voxel from the grid's outer corner, within voxels [1, inner]. */
-typedef struct nook_snapped_triangle {
-    int32_t corner[3][3];
-} nook_snapped_triangle;
 
 /** Marks, for each axis, the voxels in which the triangle crosses the lines through voxel centres along that axis. */
 void nook_rasterize_three_way(const nook_snapped_triangle *triangle, const int32_t inner[3], nook_voxel_grid *grid);

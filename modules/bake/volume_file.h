@@ -1,5 +1,5 @@
 /**
- * volume_file.h - the .nkv file: one occluder's voxels. Format: docs/volume_format.md.
+ * volume_file.h - the .nkv file: one occluder's voxels or surfels. Format: docs/volume_format.md.
  */
 #pragma once
 #include "engine/core/result.h"
@@ -15,28 +15,49 @@ extern "C" {
 
 typedef enum nook_volume_kind {
     NOOK_VOLUME_BINARY = 0, /**< A voxel is 255 where a surface was voxelised (voxelize.h says which), else 0. */
+    NOOK_VOLUME_SURFEL = 2, /**< Planes inside of voxels, in bricks: docs/surfel_bricks.md. */
 } nook_volume_kind;
 
-/** What a volume is, without its voxels. */
+/** Kinds by name: "binary", "surfel". @return NULL for a number that is none */
+const char *nook_volume_kind_name(nook_volume_kind kind);
+
+/** What a volume is, without its contents. */
 typedef struct nook_volume_info {
     nook_volume_kind kind;
     uint32_t width, height, depth; /**< Voxels, each in [1, NOOK_VOLUME_SIDE_MAX], the empty border included. */
     double voxel_size;             /**< Metres in mesh space, > 0; the same on all axes. */
     double origin[3];              /**< Metres, mesh space: outer corner of voxel (0, 0, 0). */
     uint64_t content_hash;         /**< Of the triangles and the bake settings; tells a stale bake. */
-    uint64_t occupied;             /**< Voxels that are not 0. */
+    uint64_t occupied;             /**< Voxels that are not 0, or have a surfel. */
 } nook_volume_info;
+
+/** 4 x 4 x 4 voxels. Layout of the GPU's: RGBA32UI. */
+typedef struct nook_brick {
+    uint32_t mask
+        [2]; /**< Voxels that have a surfel: bits of nook_brick_bit (modules/bake/brick_grid.h), the low word first. */
+    uint32_t first_surfel; /**< Of its voxels, in the order of their bits. */
+    uint32_t
+        skip; /**< Chebyshev distance in bricks to the nearest one that has a surfel; 0: this one has. At most the grid's
+                        longest side: then there is none. */
+} nook_brick;
+
+/** What lies in a voxel: two words of modules/bake/surfel_word.h; the second may be 0. Layout of the GPU's: RG32UI. */
+typedef struct nook_surfel {
+    uint32_t plane[2];
+} nook_surfel;
 
 /** A volume in memory. */
 typedef struct nook_volume {
     nook_volume_info info;
-    uint8_t *voxels; /**< width * height * depth bytes, x fastest, then y, then z. Owned. */
+    uint8_t *voxels;      /**< Binary: width * height * depth bytes, x fastest, then y, then z; else NULL. Owned. */
+    nook_brick *bricks;   /**< Surfel: those of nook_brick_counts, x fastest, then y, then z; else NULL. Owned. */
+    nook_surfel *surfels; /**< Surfel: info.occupied of them, in the order of bricks; else NULL. Owned. */
 } nook_volume;
 
 void nook_volume_free(nook_volume *volume); /**< NULL and zeroed volumes are allowed. */
 
 /**
- * Reads and checks a .nkv file image: magic, version, sizes, checksum, decompressed size.
+ * Reads and checks a .nkv file image: magic, version, sizes, checksum, decompressed size, and all that shaders rely on.
  * @param name  used in messages only
  * @return NOOK_E_FORMAT not a volume, cut short or damaged; NOOK_E_VERSION bake it again; NOOK_E_MEMORY.
  *         *out_volume is untouched on failure

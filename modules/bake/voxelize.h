@@ -23,6 +23,8 @@
 extern "C" {
 #endif
 
+/* What the kind "surfel" holds, and how it is fitted: docs/surfel_bricks.md. Its grid lies where that of the voxels does. */
+
 /** Raise it when the voxels of the same triangles change: cached volumes of older versions are then baked again. */
 #define NOOK_VOXELIZE_VERSION 2u
 #define NOOK_VOXELIZE_RESOLUTION_MAX (NOOK_VOLUME_SIDE_MAX - 2u)
@@ -36,21 +38,22 @@ typedef struct nook_triangles {
 } nook_triangles;
 
 typedef struct nook_voxelize_desc {
-    uint32_t resolution; /**< Voxels along the longest side of the mesh's box, the border not counted: [1, 512]. */
-    uint32_t threads;    /**< 0: all cores. The result does not depend on it. */
+    uint32_t resolution;   /**< Voxels along the longest side of the mesh's box, the border not counted: [1, 512]. */
+    uint32_t threads;      /**< 0: all cores. The result does not depend on it. */
+    nook_volume_kind kind; /**< What is made of the triangles; 0: voxels. */
 } nook_voxelize_desc;
 
 /**
  * Makes the volume of a soup: its bounding box at `resolution`, plus one empty voxel on every side.
- * Degenerate triangles are voxelised as the segments or points they are; triangles with a non-finite corner are left out
+ * Degenerate triangles are voxelised as the segments or points they are, and have no surfels, which cover area; triangles with a non-finite corner are left out
  * (one warning counts them). Soups smaller than a micrometre are voxelised as if they were that large.
- * @return NOOK_E_RANGE resolution; NOOK_E_ARG nothing finite to voxelise, or indices or stride out of bounds;
+ * @return NOOK_E_RANGE resolution or kind; NOOK_E_ARG nothing finite to voxelise, or indices or stride out of bounds;
  *         NOOK_E_MEMORY; *out_volume is untouched on failure. Its content_hash is nook_voxelize_hash's.
  */
 nook_result nook_voxelize(const nook_triangles *triangles, const nook_voxelize_desc *desc, nook_volume *out_volume);
 
 /**
- * Identifies a bake: a hash of positions, indices, resolution and the versions of voxeliser and file. Threads and stride
+ * Identifies a bake: a hash of positions, indices, kind, resolution and the versions of voxeliser and file. Threads and stride
  * do not enter. Takes what nook_voxelize takes.
  */
 uint64_t nook_voxelize_hash(const nook_triangles *triangles, const nook_voxelize_desc *desc);

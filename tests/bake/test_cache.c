@@ -252,12 +252,32 @@ static void test_failing_bake_fails_and_leaves_nothing(void **state)
 
 #define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, set_up, tear_down)
 
+static void test_both_kinds_of_a_mesh_stand_side_by_side(void **state)
+{
+    const folder *f = *state;
+    nook_voxelize_desc surfels = desc;
+    surfels.kind = NOOK_VOLUME_SURFEL;
+    assert_true(nook_voxelize_hash(&tetrahedron, &surfels) != nook_voxelize_hash(&tetrahedron, &desc));
+    for (int round = 0; round < 2; round++) {
+        nook_bake binary = { 0 }, bricks = { 0 };
+        assert_int_equal(nook_bake_cached(f->path, "tetrahedron", &tetrahedron, &desc, &binary), NOOK_OK);
+        assert_int_equal(nook_bake_cached(f->path, "tetrahedron", &tetrahedron, &surfels, &bricks), NOOK_OK);
+        assert_int_equal(binary.info.kind, NOOK_VOLUME_BINARY);
+        assert_int_equal(bricks.info.kind, NOOK_VOLUME_SURFEL);
+        assert_int_equal(binary.cache_hit, round == 1);
+        assert_int_equal(bricks.cache_hit, round == 1);
+        nook_bake_free(&binary);
+        nook_bake_free(&bricks);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         IN_FOLDER(test_second_bake_is_a_cache_hit),
         IN_FOLDER(test_cache_folder_is_made),
         IN_FOLDER(test_other_resolution_is_another_file),
+        IN_FOLDER(test_both_kinds_of_a_mesh_stand_side_by_side),
         IN_FOLDER(test_truncated_file_is_baked_again),
         IN_FOLDER(test_damaged_file_is_baked_again),
         IN_FOLDER(test_other_meshs_volume_under_this_name_is_baked_again),

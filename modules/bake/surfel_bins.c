@@ -1,0 +1,209 @@
+#include "modules/bake/surfel_bins.h"
+#include "engine/core/vector.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    CELLS = 4, /* directions on a face of the cube, along each side */
+    DEPTHS = 8,
+    BIN_BITS = 9,
+    SUMS = 13,
+    TABLE_FIRST = 1 << 12,
+};
+_Static_assert(3 * CELLS * CELLS * DEPTHS == NOOK_SURFEL_BINS_PER_VOXEL && NOOK_SURFEL_BINS_PER_VOXEL < 1 << BIN_BITS,
+               "a key holds the bin");
+static const double depth_lowest = -1.0, depth_step = 0.25; /* voxels; all depths are within half a diagonal, 0.87 */
+/* Of one voxel area. Sums hold 2^27 of them: more than 77 million triangles, each as large as fits into a voxel. */
+static const double unit = 68719476736.0; /* 2^36 */
+
+typedef struct entry {
+    uint32_t key;
+    int64_t sum[SUMS]; /* area, normal, first, second */
+} entry;
+
+struct nook_surfel_bins {
+    entry *entries;
+    uint32_t count, capacity;
+    uint32_t *table;     /* index + 1 into entries; 0: free */
+    uint32_t table_size; /* a power of two, at least twice the entries */
+    uint64_t *order;     /* key << 32 | index, sorted */
+    uint32_t order_capacity;
+};
+
+nook_surfel_bins *nook_surfel_bins_create(void)
+{
+    nook_surfel_bins *bins = calloc(1, sizeof *bins);
+    if (!bins)
+        return NULL;
+    bins->table = calloc(TABLE_FIRST, sizeof *bins->table);
+    bins->table_size = TABLE_FIRST;
+    if (!bins->table) {
+        free(bins);
+        return NULL;
+    }
+    return bins;
+}
+
+void nook_surfel_bins_destroy(nook_surfel_bins *bins)
+{
+    if (!bins)
+        return;
+    free(bins->entries);
+    free(bins->table);
+    free(bins->order);
+    free(bins);
+}
+
+void nook_surfel_bins_clear(nook_surfel_bins *bins)
+{
+    memset(bins->table, 0, bins->table_size * sizeof *bins->table);
+    bins->count = 0;
+}
+
+/* ---- Finding a bin ---------------------------------------------------------------------------------------------- */
+
+static uint32_t slot_of(const nook_surfel_bins *bins, uint32_t key)
+{
+    uint32_t slot = key * 2654435761u;
+    slot ^= slot >> 15;
+    return slot & (bins->table_size - 1);
+}
+
+static uint32_t *find(nook_surfel_bins *bins, uint32_t key)
+{
+    uint32_t slot = slot_of(bins, key);
+    while (bins->table[slot] && bins->entries[bins->table[slot] - 1].key != key)
+        slot = (slot + 1) & (bins->table_size - 1);
+    return &bins->table[slot];
+}
+
+static int grow_table(nook_surfel_bins *bins)
+{
+    uint32_t *table = calloc((size_t)bins->table_size * 2, sizeof *table);
+    if (!table)
+        return 0;
+    free(bins->table);
+    bins->table = table;
+    bins->table_size *= 2;
+    for (uint32_t i = 0; i < bins->count; i++)
+        *find(bins, bins->entries[i].key) = i + 1;
+    return 1;
+}
+
+static int grow_entries(nook_surfel_bins *bins)
+{
+    uint32_t capacity = bins->capacity ? bins->capacity + bins->capacity / 2 : 1024;
+    entry *entries = realloc(bins->entries, capacity * sizeof *entries);
+    if (!entries)
+        return 0;
+    bins->entries = entries;
+    bins->capacity = capacity;
+    return 1;
+}
+
+/* @return NULL when there is no memory */
+static entry *entry_of(nook_surfel_bins *bins, uint32_t key)
+{
+    uint32_t *place = find(bins, key);
+    if (*place)
+        return &bins->entries[*place - 1];
+    if (bins->count == bins->capacity && !grow_entries(bins))
+        return NULL;
+    if (bins->count >= bins->table_size / 2) {
+        if (!grow_table(bins))
+            return NULL;
+        place = find(bins, key);
+    }
+    *place = bins->count + 1;
+    entry *added = &bins->entries[bins->count++];
+    *added = (entry){ .key = key };
+    return added;
+}
+
+/* ---- Adding ----------------------------------------------------------------------------------------------------- */
+
+static int largest_axis(const double v[3])
+{
+    int axis = fabs(v[1]) > fabs(v[0]) ? 1 : 0;
+    return fabs(v[2]) > fabs(v[axis]) ? 2 : axis;
+}
+
+static uint32_t clamp(double value, uint32_t highest)
+{
+    return value > 0.0 ? (value < highest ? (uint32_t)value : highest) : 0u;
+}
+
+/* Cells of a cube's three faces: a plane's normal and its opposite are one direction. `normal[face]` is above 0. */
+static uint32_t direction_of(const double normal[3], int face)
+{
+    double u = normal[(face + 1) % 3] / normal[face], v = normal[(face + 2) % 3] / normal[face];
+    uint32_t column = clamp((u + 1.0) * 0.5 * CELLS, CELLS - 1), row = clamp((v + 1.0) * 0.5 * CELLS, CELLS - 1);
+    return ((uint32_t)face * CELLS + row) * CELLS + column;
+}
+
+nook_result nook_surfel_bins_add(nook_surfel_bins *bins, uint32_t voxel, const double normal[3],
+                                 const nook_polygon_moments *moments)
+{
+    int64_t area = llround(moments->area * unit);
+    if (area <= 0)
+        return NOOK_OK;
+    int face = largest_axis(normal);
+    double sign = normal[face] < 0.0 ? -1.0 : 1.0;
+    const double upright[3] = { sign * normal[0], sign * normal[1], sign * normal[2] };
+    double depth = nook_vector_dot(upright, moments->first) / moments->area;
+    uint32_t bin = direction_of(upright, face) * DEPTHS + clamp((depth - depth_lowest) / depth_step, DEPTHS - 1);
+    entry *e = entry_of(bins, voxel << BIN_BITS | bin);
+    if (!e)
+        return NOOK_E_MEMORY;
+    e->sum[0] += area;
+    for (int i = 0; i < 3; i++) {
+        e->sum[1 + i] += llround(upright[i] * moments->area * unit);
+        e->sum[4 + i] += llround(moments->first[i] * unit);
+    }
+    for (int i = 0; i < 6; i++)
+        e->sum[7 + i] += llround(moments->second[i] * unit);
+    return NOOK_OK;
+}
+
+/* ---- Reading ---------------------------------------------------------------------------------------------------- */
+
+static int compare_u64(const void *a, const void *b)
+{
+    uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
+    return (x > y) - (x < y);
+}
+
+size_t nook_surfel_bins_sort(nook_surfel_bins *bins)
+{
+    if (bins->count > bins->order_capacity) {
+        uint64_t *order = realloc(bins->order, bins->count * sizeof *order);
+        if (!order)
+            return SIZE_MAX;
+        bins->order = order;
+        bins->order_capacity = bins->count;
+    }
+    for (uint32_t i = 0; i < bins->count; i++)
+        bins->order[i] = (uint64_t)bins->entries[i].key << 32 | i;
+    if (bins->count)
+        qsort(bins->order, bins->count, sizeof *bins->order, compare_u64);
+    return bins->count;
+}
+
+uint32_t nook_surfel_bins_voxel(const nook_surfel_bins *bins, size_t index)
+{
+    return (uint32_t)(bins->order[index] >> (32 + BIN_BITS));
+}
+
+nook_surfel_bin nook_surfel_bins_get(const nook_surfel_bins *bins, size_t index)
+{
+    const int64_t *sum = bins->entries[(uint32_t)bins->order[index]].sum;
+    nook_surfel_bin bin = { .area = (double)sum[0] / unit };
+    for (int i = 0; i < 3; i++) {
+        bin.normal[i] = (double)sum[1 + i] / unit;
+        bin.first[i] = (double)sum[4 + i] / unit;
+    }
+    for (int i = 0; i < 6; i++)
+        bin.second[i] = (double)sum[7 + i] / unit;
+    return bin;
+}

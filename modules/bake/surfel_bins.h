@@ -1,0 +1,52 @@
+/**
+ * surfel_bins.h - what lies in the voxels of a slab, summed up by direction and place; inside modules/bake only.
+ *
+ * Pieces of surface that face alike (48 directions) and lie at about the same depth of a voxel (quarters of one) are one bin. Sums are
+ * integers, so that they do not depend on the order of pieces, and memory follows bins and not triangles.
+ */
+#pragma once
+#include "engine/core/result.h"
+#include "modules/bake/polygon.h"
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** 48 directions x 8 depths. */
+enum { NOOK_SURFEL_BINS_PER_VOXEL = 384 };
+
+/** Sums over the pieces of one bin, about the voxel's centre, in voxels. */
+typedef struct nook_surfel_bin {
+    double area;
+    double normal[3]; /**< Sum of area times unit normal; its sign is of no meaning. */
+    double first[3];  /**< nook_polygon_moments. */
+    double second[6];
+} nook_surfel_bin;
+
+typedef struct nook_surfel_bins nook_surfel_bins;
+
+nook_surfel_bins *nook_surfel_bins_create(void);       /**< @return NULL when there is no memory */
+void nook_surfel_bins_destroy(nook_surfel_bins *bins); /**< NULL is allowed. */
+void nook_surfel_bins_clear(nook_surfel_bins *bins);   /**< Keeps its memory for the next slab. */
+
+/**
+ * Adds a piece of surface. What is too small to count (2^-37 voxel areas) is left out.
+ * @param voxel    below NOOK_SURFEL_VOXELS, of the caller's numbering
+ * @param normal   of unit length @param moments  about the voxel's centre
+ * @return NOOK_E_MEMORY, not logged
+ */
+nook_result nook_surfel_bins_add(nook_surfel_bins *bins, uint32_t voxel, const double normal[3],
+                                 const nook_polygon_moments *moments);
+#define NOOK_SURFEL_VOXELS (1u << 23)
+
+/** Sorts by voxel, and in it by direction and depth. @return how many bins there are; NOOK_E_MEMORY as SIZE_MAX */
+size_t nook_surfel_bins_sort(nook_surfel_bins *bins);
+/** Of the sorted ones. */
+uint32_t nook_surfel_bins_voxel(const nook_surfel_bins *bins, size_t index);
+nook_surfel_bin nook_surfel_bins_get(const nook_surfel_bins *bins, size_t index);
+
+#ifdef __cplusplus
+}
+#endif
