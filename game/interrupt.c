@@ -4,7 +4,7 @@
 #include <signal.h>
 #include <stddef.h>
 
-static const int signals[] = { SIGINT, SIGTERM };
+static const int signals[] = { SIGINT, SIGTERM, SIGHUP };
 static struct sigaction before[NOOK_COUNT(signals)];
 static volatile sig_atomic_t caught;
 static int holders;
@@ -21,8 +21,11 @@ void nook_interrupt_hold(void)
     struct sigaction action = { .sa_handler = remember, .sa_flags = SA_RESTART };
     sigemptyset(&action.sa_mask);
     caught = 0;
-    for (size_t i = 0; i < NOOK_COUNT(signals); i++)
+    for (size_t i = 0; i < NOOK_COUNT(signals); i++) {
         sigaction(signals[i], &action, &before[i]);
+        if (signals[i] == SIGHUP && before[i].sa_handler == SIG_IGN)
+            sigaction(SIGHUP, &before[i], NULL); /* nohup: it shall outlive its terminal */
+    }
 }
 
 bool nook_interrupt_asked(void)

@@ -5,7 +5,7 @@
 #pragma once
 #include <stdbool.h>
 
-/** From here on SIGINT and SIGTERM wait. Every hold needs its release. */
+/** From here on SIGINT, SIGTERM and SIGHUP (the terminal was closed; unless nohup has it ignored) wait. Every hold needs its release. */
 void nook_interrupt_hold(void);
 /** Someone wants the program to end: stop soon. */
 bool nook_interrupt_asked(void);

@@ -1,7 +1,9 @@
 #include "game/play/play.h"
 #include "game/commands/commands.h"
+#include "game/interrupt.h"
 #include "game/play/play_host.h"
 #include "game/play/play_request.h"
+#include <stdio.h>
 
 static int play_headless(const nook_play_desc *desc)
 {
@@ -10,9 +12,12 @@ static int play_headless(const nook_play_desc *desc)
     nook_result result = nook_play_open(desc, &play);
     if (result == NOOK_OK)
         result = nook_play_begin(&play, NULL, NULL);
+    nook_interrupt_hold();
     if (result == NOOK_OK)
         result = nook_play_headless(&play, &orderly);
-    nook_result closed = nook_play_close(&play);
+    nook_result closed = nook_play_close(&play); /* a recording is written whatever happens */
+    fflush(stdout);
+    nook_interrupt_release();
     return result == NOOK_OK && closed == NOOK_OK && orderly ? NOOK_EXIT_OK : NOOK_EXIT_FAILED;
 }
 

@@ -85,8 +85,8 @@ int nook_command_soak(const nook_app *app, int argc, char **argv)
         return exit_code;
     if (nook_soak_run(app->root, &request.desc, &report) != NOOK_OK)
         return NOOK_EXIT_FAILED;
-    bool holds = nook_soak_holds(&report);
+    bool whole = report.frames == request.desc.frames, holds = nook_soak_holds(&report);
     print_report(&report);
-    printf("%s after %u frames\n", holds ? "holds" : "does not hold", report.frames);
-    return holds ? NOOK_EXIT_OK : NOOK_EXIT_FAILED;
+    printf("%s after %u frames\n", !whole ? "stopped" : holds ? "holds" : "does not hold", report.frames);
+    return whole && holds ? NOOK_EXIT_OK : NOOK_EXIT_FAILED;
 }

@@ -76,7 +76,7 @@ nook_result nook_play_close(nook_play *play);
 
 /**
  * Plays a begun game without a window, as fast as it goes: to the end of what drives it, or 2 s beyond the end of the game; a
- * level with a time limit goes on to that. Prints how it ended.
+ * level with a time limit goes on to that. Ends in order while a Ctrl-C is held (game/interrupt.h). Prints how it ended.
  * @param out_orderly  won or lost, or ended where the level has neither
  * @return as nook_play_tick; NOOK_E_ARG nothing drives it and it would never end
  */

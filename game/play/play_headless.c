@@ -1,5 +1,6 @@
 /* A game that nobody sees. */
 #include "engine/core/log.h"
+#include "game/interrupt.h"
 #include "game/play/play.h"
 #include <stdio.h>
 
@@ -47,12 +48,13 @@ nook_result nook_play_headless(nook_play *play, bool *out_orderly)
     if (nook_play_is_free(play) && !(play->level->seconds > 0.0))
         return nook_fail(NOOK_E_ARG, "%s has no time limit and nobody plays: give --replay or --pilot",
                          play->level->path);
-    while (!is_over(play)) {
+    while (!is_over(play) && !nook_interrupt_asked()) {
         nook_result result = nook_play_tick(play, &nothing);
         if (result != NOOK_OK)
             return result;
     }
     nook_play_print_end(play);
-    *out_orderly = play->pilot_status != NOOK_PILOT_FAILED && (!can_end(play->level) || play->ended_at > 0);
+    *out_orderly = !nook_interrupt_asked() && play->pilot_status != NOOK_PILOT_FAILED &&
+                   (!can_end(play->level) || play->ended_at > 0);
     return NOOK_OK;
 }

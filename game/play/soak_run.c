@@ -2,6 +2,7 @@
 #include "engine/core/clock.h"
 #include "engine/core/log.h"
 #include "engine/core/process.h"
+#include "game/interrupt.h"
 #include "game/play/soak_code.h"
 #include "game/progress.h"
 #include <math.h>
@@ -174,7 +175,8 @@ nook_result nook_soak_run(const char *root, const nook_soak_desc *desc, nook_soa
     soak s = { .code = &code, .window = window, .report = out_report, .random = desc->seed, .warm = desc->frames / 10 };
     nook_progress progress = nook_progress_begin("soak");
     double start = nook_clock_ms();
-    for (uint32_t frame = 1; frame <= desc->frames && result == NOOK_OK; frame++) {
+    nook_interrupt_hold();
+    for (uint32_t frame = 1; frame <= desc->frames && result == NOOK_OK && !nook_interrupt_asked(); frame++) {
         result = run_frame(&s, frame);
         nook_progress_update(&progress, (double)frame / desc->frames);
     }
@@ -184,6 +186,8 @@ nook_result nook_soak_run(const char *root, const nook_soak_desc *desc, nook_soa
     out_report->seconds = (nook_clock_ms() - start) / 1000.0;
     free(s.visibility);
     nook_result closed = nook_soak_code_close(&code);
+    nook_interrupt_answer(); /* the report says how far it came */
+    nook_interrupt_release();
     return result == NOOK_OK ? closed : result;
 }
 

@@ -23,7 +23,7 @@ typedef struct nook_soak_report {
     double seconds;
 } nook_soak_report;
 
-/** Progress on standard error. @return why it could not go on to its end; the report is filled in as far as it came */
+/** Progress on standard error; Ctrl-C ends it in order, with fewer frames. @return why it could not go on to its end; the report is filled in as far as it came */
 nook_result nook_soak_run(const char *root, const nook_soak_desc *desc, nook_soak_report *out_report);
 
 /** Bytes by which memory may grow after the warm-up: 2 %, and 4 MiB for what the driver and the allocator keep. */

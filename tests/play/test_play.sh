@@ -96,6 +96,22 @@ test_headless_captures_pictures_without_a_display_and_ends_in_the_same_state() {
     [ "$(find "$tmp/pictures" -name 'frame_*.png' | wc -l)" -eq 15 ] # of 1/30 s
 }
 
+# Whether a process holds the end that SIGTERM asks for.
+holds_end() { (((0x$(awk '/^SigCgt/ { print $2 }' "/proc/$1/status") >> 14) & 1)); }
+
+test_an_interrupted_game_writes_its_recording_and_says_how_far_it_came() {
+    local id code=0 tries=600
+    printf 'wait 1e9\n' >"$tmp/long.pilot"
+    "$NOOK_PROGRAM" play --headless tests/play/data/crate.level --pilot "$tmp/long.pilot" --record "$tmp/stopped.replay" >"$tmp/stopped" &
+    id=$!
+    until holds_end $id || [ $((tries--)) -eq 0 ]; do sleep 0.1; done
+    kill -TERM $id
+    wait $id || code=$?
+    [ $code -eq 143 ] # by that signal, so that scripts around it end too
+    ends_with "$(tail -n 1 "$tmp/stopped")" ended
+    [ "$(play --replay "$tmp/stopped.replay" | tail -n 1)" = "$(tail -n 1 "$tmp/stopped")" ]
+}
+
 test_options_of_pictures_that_nobody_draws_are_refused() {
     local option said
     for option in --settings=none.settings --from=1 --frames=3; do
