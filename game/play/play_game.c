@@ -31,6 +31,29 @@ static void find_level(const char *root, const char *name, char out[PATH_SIZE])
         snprintf(out, PATH_SIZE, "%s", name);
 }
 
+/* Where a level that a recording names can be read from: as any, or beside the recording. */
+static void find_recorded_level(const nook_play_desc *desc, const char *name, char out[PATH_SIZE])
+{
+    find_level(desc->root, name, out);
+    if (*name == '/' || nook_file_exists(out))
+        return;
+    int folder = (int)(nook_path_name(desc->replay) - desc->replay);
+    char beside[PATH_SIZE];
+    int length = snprintf(beside, sizeof beside, "%.*s%s", folder, desc->replay, name);
+    if (length > 0 && length < (int)sizeof beside && nook_file_exists(beside))
+        snprintf(out, PATH_SIZE, "%s", beside);
+}
+
+/* Whether two paths lead to one file. */
+static bool same_file(const char *a, const char *b)
+{
+    char *real_a = realpath(a, NULL), *real_b = realpath(b, NULL);
+    bool same = real_a && real_b && strcmp(real_a, real_b) == 0;
+    free(real_a);
+    free(real_b);
+    return same;
+}
+
 static nook_result choose_level(const nook_play_desc *desc, nook_play *play, char out_path[PATH_SIZE])
 {
     char *name = play->recording.level;
@@ -38,10 +61,16 @@ static nook_result choose_level(const nook_play_desc *desc, nook_play *play, cha
         name_level(desc->root, desc->level, name);
     else
         snprintf(name, PATH_SIZE, "%s", desc->replay ? play->replay.level : default_level);
-    if (desc->replay && strcmp(name, play->replay.level) != 0)
+    find_level(desc->root, name, out_path);
+    if (!desc->replay)
+        return NOOK_OK;
+    char recorded[PATH_SIZE];
+    find_recorded_level(desc, play->replay.level, recorded);
+    if (desc->level && strcmp(name, play->replay.level) != 0 && !same_file(out_path, recorded))
         return nook_fail(NOOK_E_ARG, "%s: was recorded in %s, not in %s; play that, or leave the level out",
                          desc->replay, play->replay.level, name);
-    find_level(desc->root, name, out_path);
+    if (!desc->level)
+        snprintf(out_path, PATH_SIZE, "%s", recorded);
     return NOOK_OK;
 }
 
@@ -111,7 +140,14 @@ nook_result nook_play_begin(nook_play *play, const nook_scene *scene, nook_game_
                                      .scene = scene ? scene : play->scene,
                                      .world = world ? world : play->own_world,
                                      .seed = play->seed };
-    return result == NOOK_OK ? nook_session_create(&desc, &play->session) : result;
+    if (result == NOOK_OK)
+        result = nook_session_create(&desc, &play->session);
+    if (result != NOOK_OK)
+        return result;
+    play->recording.origin = nook_session_origin(play->session);
+    if (play->replay.origin != 0 && play->replay.origin != play->recording.origin)
+        nook_log_warning("%s: is not as it was when the replay was recorded; it may end otherwise", play->level->path);
+    return NOOK_OK;
 }
 
 nook_result nook_play_read_again(const nook_play *play, bool skip_images, nook_level **out_level,

@@ -60,6 +60,8 @@ nook_result nook_recording_write(const char *path, const nook_recording *recordi
     FILE *stream = open_memstream(&text, &size);
     if (stream) {
         fprintf(stream, "nook recording %d\nlevel %s\nseed %u\n", RECORDING_VERSION, recording->level, recording->seed);
+        if (recording->origin != 0)
+            fprintf(stream, "origin %016llx\n", (unsigned long long)recording->origin);
         write_runs(recording, stream);
     }
     if (!stream || fclose(stream) != 0) {
@@ -103,8 +105,10 @@ static nook_result read_header(nook_line_reader *lines, nook_recording *out)
 {
     char *line;
     nook_result result = read_first(lines);
+    lines->verbatim = true;
     if (result == NOOK_OK)
         result = nook_line_next(lines, &line);
+    lines->verbatim = false;
     if (result != NOOK_OK)
         return result;
     const char *level = after(line, "level");
@@ -154,6 +158,17 @@ static nook_result read_run(const nook_line_reader *lines, const char *line, noo
     return result;
 }
 
+/* A line that need not be there. */
+static nook_result read_origin(const nook_line_reader *lines, const char *number, nook_recording *out)
+{
+    char *end;
+    out->origin = strtoull(number, &end, 16);
+    bool whole = strlen(number) == 16 && *end == '\0' && strspn(number, "0123456789abcdef") == 16;
+    if (!whole || out->tick_count > 0)
+        return nook_fail(NOOK_E_FORMAT, "%s: give origin and 16 digits, once, before the first ticks", lines->where);
+    return NOOK_OK;
+}
+
 static nook_result read_all(nook_line_reader *lines, nook_recording *out)
 {
     char *line;
@@ -162,7 +177,10 @@ static nook_result read_all(nook_line_reader *lines, nook_recording *out)
         result = nook_line_next(lines, &line);
         if (result == NOOK_OK && !line)
             return NOOK_OK;
-        if (result == NOOK_OK)
+        const char *origin = result == NOOK_OK ? after(line, "origin") : NULL;
+        if (origin)
+            result = read_origin(lines, origin, out);
+        else if (result == NOOK_OK)
             result = read_run(lines, line, out);
     }
     return result;

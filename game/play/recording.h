@@ -4,6 +4,7 @@
  *   nook recording 1
  *   level content/engine_house/engine_house.level
  *   seed 1
+ *   origin 0123456789abcdef  nook_session_origin of what it was played in; may be left out
  *   12 0 127 0x2 0 -35     ticks, right, forward, buttons, yaw, pitch of each of them
  */
 #pragma once
@@ -15,6 +16,7 @@
 typedef struct nook_recording {
     char level[1024]; /**< As it was given to ./nook play. */
     uint32_t seed;
+    uint64_t origin;         /**< nook_session_origin; 0: not known. */
     nook_play_input *inputs; /**< Owned, one for each tick. */
     size_t tick_count, capacity;
 } nook_recording;

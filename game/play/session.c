@@ -240,7 +240,7 @@ nook_physics *nook_session_physics(nook_session *session)
 
 /* ---- Hash -------------------------------------------------------------------------------------------------------- */
 
-static uint64_t mix(uint64_t hash, const void *bytes, size_t size)
+uint64_t session_mix(uint64_t hash, const void *bytes, size_t size)
 {
     return XXH3_64bits_withSeed(bytes, size, hash);
 }
@@ -275,13 +275,13 @@ uint64_t nook_session_hash(const nook_session *session)
                                p->rising,
                                p->body.id };
     uint64_t hash = nook_physics_hash(session->physics);
-    hash = mix(hash, numbers, sizeof numbers);
-    hash = mix(hash, words, sizeof words);
+    hash = session_mix(hash, numbers, sizeof numbers);
+    hash = session_mix(hash, words, sizeof words);
     for (uint32_t i = 0; i < session->desc.level->entity_count; i++) {
         const session_rule *rule = &session->rules[i];
         const double state[] = { rule->progress, rule->measured, rule->angle };
-        hash = mix(hash, state, sizeof state);
-        hash = mix(hash, rule->hidden, sizeof rule->hidden);
+        hash = session_mix(hash, state, sizeof state);
+        hash = session_mix(hash, rule->hidden, sizeof rule->hidden);
     }
     return hash;
 }

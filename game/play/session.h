@@ -87,5 +87,10 @@ nook_body nook_session_body_of(const nook_session *session, const char *name);
 /** Where the middle of a body's box is. @return false: no such body; the output is untouched then */
 bool nook_session_middle_of(const nook_session *session, const char *name, double out_middle[3]);
 nook_physics *nook_session_physics(nook_session *session);
+/**
+ * Of what it was made: the level's rules, the bodies and the player's abilities; not the seed. Inputs that were recorded in a session
+ * of another origin end otherwise. The shapes of meshes that stand still count by their boxes.
+ */
+uint64_t nook_session_origin(const nook_session *session);
 /** Of physics, player and rules. */
 uint64_t nook_session_hash(const nook_session *session);

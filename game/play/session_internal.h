@@ -74,6 +74,10 @@ struct nook_session {
 static const double session_pi = 3.14159265358979323846;
 static const double session_gravity = 9.81; /**< Metres per second squared. */
 
+/* ---- session.c ---- */
+
+uint64_t session_mix(uint64_t hash, const void *bytes, size_t size); /**< XXH3 of all so far. */
+
 /* ---- session_things.c ---- */
 
 /** Finds out what has a body. Once in a session's life. @return NOOK_E_NOT_FOUND, NOOK_E_MEMORY */

@@ -14,12 +14,20 @@ static char *trim(char *text)
     return text;
 }
 
+/* Where a comment begins, or the end. */
+static size_t find_comment(const nook_line_reader *reader, const char *text, size_t length)
+{
+    const char *comment = memchr(text, '#', length);
+    size_t at = comment ? (size_t)(comment - text) : length, blanks = 0;
+    while (blanks < length && memchr(NOOK_LINE_BLANKS, text[blanks], sizeof NOOK_LINE_BLANKS - 1))
+        blanks++;
+    return reader->verbatim && at > blanks ? length : at;
+}
+
 /* Copies a line without its comment, which may be as long as it likes. */
 static nook_result take(nook_line_reader *reader, const char *text, size_t length)
 {
-    const char *comment = memchr(text, '#', length);
-    if (comment)
-        length = (size_t)(comment - text);
+    length = find_comment(reader, text, length);
     if (length > reader->longest || memchr(text, '\0', length))
         return nook_fail(NOOK_E_FORMAT, "%s: %s", reader->where, reader->refusal);
     memcpy(reader->buffer, text, length);

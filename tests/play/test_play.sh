@@ -25,6 +25,16 @@ test_the_recording_that_ships_wins_in_two_to_four_minutes() {
     [ "$(wc -c <$house.replay)" -lt 200000 ]
 }
 
+test_the_recording_that_ships_was_made_in_the_level_that_ships() {
+    local said
+    said=$(play --replay $house.replay 2>&1 >"$tmp/ending")
+    [ -z "$said" ]
+    sed 's/^origin ..../origin 0000/' $house.replay >"$tmp/other.replay"
+    said=$(play --replay "$tmp/other.replay" 2>&1 >"$tmp/ending")
+    assert_holds "$said" "engine_house.level: is not as it was when the replay was recorded"
+    ends_with "$(tail -n 1 "$tmp/ending")" won # it is played all the same
+}
+
 test_recordings_of_the_same_inputs_are_the_same_and_end_in_the_same_state() {
     local first second shared
     first=$(shipped)

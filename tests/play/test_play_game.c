@@ -117,6 +117,63 @@ static void test_a_recording_that_cannot_be_written_any_more_is_said(void **stat
     assert_null(play.level);
 }
 
+/* A recording of some ticks in a level. @return its path */
+static const char *record(const char *level)
+{
+    static char path[1024];
+    nook_scratch_path(path, sizeof path, "of_level.replay");
+    nook_play play = must_open(&(nook_play_desc){ .root = ".", .level = level, .record = path });
+    for (int i = 0; i < 20; i++)
+        assert_int_equal(nook_play_tick(&play, &forward), NOOK_OK);
+    assert_int_equal(nook_play_close(&play), NOOK_OK);
+    return path;
+}
+
+static void test_a_level_is_the_recorded_one_however_its_path_is_written(void **state)
+{
+    (void)state;
+    const char *level = write_level("start = 0 0 0\n"), *replay = record(level), *name = nook_path_name(level);
+    char aslant[1100];
+    nook_log_capture log;
+    snprintf(aslant, sizeof aslant, "%.*s./%s", (int)(name - level), level, name);
+    nook_log_capture_begin(&log);
+    nook_play play = must_open(&(nook_play_desc){ .root = ".", .level = aslant, .replay = replay });
+    assert_int_equal(nook_play_close(&play), NOOK_OK);
+    nook_log_capture_end();
+    assert_int_equal(log.count, 0);
+}
+
+static void test_a_recording_that_lies_beside_its_level_is_played_from_anywhere(void **state)
+{
+    (void)state;
+    nook_recording recording = { .level = "played.level", .seed = 1 };
+    char replay[1024];
+    write_level("title = beside\n");
+    nook_scratch_path(replay, sizeof replay, "beside.replay");
+    assert_int_equal(nook_recording_write(replay, &recording), NOOK_OK);
+    nook_play play = must_open(&(nook_play_desc){ .root = ".", .replay = replay });
+    assert_string_equal(play.level->title, "beside");
+    assert_int_equal(nook_play_close(&play), NOOK_OK);
+}
+
+static void test_a_replay_in_a_level_that_was_changed_is_warned_of_once(void **state)
+{
+    (void)state;
+    static const char *const changed[] = { "start = 0 0 1\n", "start = 0 0 0\n[body crate]\nmass = 16\n",
+                                           "start = 0 0 0\n[goal g]\nat = 0 0 0\nsize = 1 1 1\n" };
+    const char *replay = record(write_level("start = 0 0 0\n"));
+    nook_log_capture log;
+    for (size_t i = 0; i < NOOK_COUNT(changed) + 1; i++) {
+        write_level(i < NOOK_COUNT(changed) ? changed[i] : "title = only words\nstart = 0 0 0\n");
+        nook_log_capture_begin(&log);
+        nook_play play = must_open(&(nook_play_desc){ .root = ".", .replay = replay, .seed = 9, .seed_given = true });
+        assert_int_equal(nook_play_close(&play), NOOK_OK);
+        nook_log_capture_end();
+        assert_int_equal(log.count, i < NOOK_COUNT(changed));
+        assert_true(log.count == 0 || strstr(log.text, "is not as it was when the replay was recorded"));
+    }
+}
+
 static void test_the_tick_of_the_end_is_kept_until_a_restart(void **state)
 {
     (void)state;
@@ -180,6 +237,9 @@ int main(void)
         cmocka_unit_test(test_what_was_played_is_written_when_it_is_closed),
         cmocka_unit_test(test_a_recording_that_cannot_be_written_is_said_before_anything_is_played),
         cmocka_unit_test(test_a_recording_that_cannot_be_written_any_more_is_said),
+        cmocka_unit_test(test_a_level_is_the_recorded_one_however_its_path_is_written),
+        cmocka_unit_test(test_a_recording_that_lies_beside_its_level_is_played_from_anywhere),
+        cmocka_unit_test(test_a_replay_in_a_level_that_was_changed_is_warned_of_once),
         cmocka_unit_test(test_the_tick_of_the_end_is_kept_until_a_restart),
         cmocka_unit_test(test_a_level_that_changes_on_disk_is_gone_on_in),
     };

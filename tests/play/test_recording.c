@@ -67,6 +67,23 @@ static void test_what_is_written_reads_back_the_same(void **state)
     assert_int_equal(in.tick_count, 0);
 }
 
+static void test_paths_with_blanks_and_hashes_and_the_origin_are_read_back(void **state)
+{
+    (void)state;
+    char path[PATH_BYTES];
+    nook_recording out = { .level = "my levels #2/a b # c.level", .seed = 1, .origin = 0x00fedcba98765432u }, in;
+    const nook_play_input nothing = { 0 };
+    assert_int_equal(nook_recording_append(&out, &nothing), NOOK_OK);
+    nook_scratch_path(path, sizeof path, "d.replay");
+    assert_int_equal(nook_recording_write(path, &out), NOOK_OK);
+    assert_int_equal(nook_recording_read(path, &in), NOOK_OK);
+    assert_string_equal(in.level, out.level);
+    assert_true(in.origin == out.origin);
+    assert_int_equal(in.tick_count, 1);
+    nook_recording_free(&out);
+    nook_recording_free(&in);
+}
+
 static void test_an_hour_of_standing_is_one_line(void **state)
 {
     (void)state;
@@ -88,7 +105,8 @@ static void test_comments_blanks_and_hexadecimals_are_read(void **state)
 {
     (void)state;
     nook_recording in;
-    const char *text = "# by hand\n" HEADER "\n  2  -1 127\t0x2 -35 9 # look\r\n1 0 0 10 0 0";
+    const char *text = "# by hand\nnook recording 1\n# of\n  level a/b c.level  \nseed 7 # any\n\n  2  -1 127\t0x2 -35 "
+                       "9 # look\r\n1 0 0 10 0 0";
     assert_int_equal(nook_recording_read(write_bytes(text, strlen(text)), &in), NOOK_OK);
     assert_int_equal(in.tick_count, 3);
     assert_string_equal(in.level, "a/b c.level");
@@ -127,6 +145,10 @@ static void test_broken_headers_are_refused_with_their_line(void **state)
     must_refuse("nook recording 1\nlevel a\nseed -1\n", "a.replay:3: give seed N");
     must_refuse("nook recording 1\nlevel a\nseed 4294967296\n", "a.replay:3: give seed N");
     must_refuse("nook recording 1\nlevel a\nseed 1.5\n", "a.replay:3: give seed N");
+    must_refuse(HEADER "origin 12\n", "a.replay:4: give origin and 16 digits");
+    must_refuse(HEADER "origin 00112233445566zz\n", "a.replay:4: give origin and 16 digits");
+    must_refuse(HEADER "origin 0011223344556677 8\n", "a.replay:4: give origin and 16 digits");
+    must_refuse(HEADER "1 0 0 0 0 0\norigin 0011223344556677\n", "a.replay:5: give origin and 16 digits");
 }
 
 static void test_broken_runs_are_refused_with_their_line(void **state)
@@ -160,6 +182,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_what_is_written_reads_back_the_same),
+        cmocka_unit_test(test_paths_with_blanks_and_hashes_and_the_origin_are_read_back),
         cmocka_unit_test(test_an_hour_of_standing_is_one_line),
         cmocka_unit_test(test_comments_blanks_and_hexadecimals_are_read),
         cmocka_unit_test(test_a_recording_without_ticks_is_one),
