@@ -76,6 +76,12 @@ typedef struct nook_physics_desc {
 nook_result nook_physics_create(const nook_physics_desc *desc, nook_physics **out_physics);
 void nook_physics_destroy(nook_physics *physics); /**< NULL is allowed. */
 
+/**
+ * Whether a triangle has an area to push with. Those of a mesh that have none are left out, and a mesh of such alone is refused.
+ * @param positions, triangle  as of nook_shape
+ */
+bool nook_physics_has_area(const float *positions, const uint32_t triangle[3]);
+
 /** @return NOOK_E_ARG a shape, mass or pose that is none (the line says which); NOOK_E_MEMORY; *out_body untouched then */
 nook_result nook_physics_add(nook_physics *physics, const nook_body_desc *desc, nook_body *out_body);
 /** Stale handles are allowed. What rested on it wakes. */

@@ -53,7 +53,7 @@ nook_result nook_physics_check_shape(const nook_shape *shape, nook_body_motion m
 
 /* ---- geoms ---- */
 
-static bool has_area(const float *positions, const uint32_t triangle[3])
+bool nook_physics_has_area(const float *positions, const uint32_t triangle[3])
 {
     double e1[3], e2[3], normal[3];
     nook_vector_between(positions + 3 * (size_t)triangle[0], positions + 3 * (size_t)triangle[1], e1);
@@ -74,7 +74,7 @@ static nook_result make_mesh(physics_shape *shape, const nook_shape *desc, dSpac
     memcpy(shape->positions, desc->positions, positions_size);
     uint32_t count = 0;
     for (uint32_t i = 0; i < desc->index_count; i += 3)
-        if (has_area(desc->positions, desc->indices + i)) {
+        if (nook_physics_has_area(desc->positions, desc->indices + i)) {
             memcpy(shape->indices + count, desc->indices + i, 3 * sizeof(uint32_t));
             count += 3;
         }

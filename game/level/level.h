@@ -8,7 +8,13 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-enum { NOOK_LEVEL_NAME_SIZE = 64, NOOK_LEVEL_TEXT_SIZE = 256, NOOK_LEVEL_NEEDS_MAX = 8, NOOK_LEVEL_FILES_MAX = 16 };
+enum {
+    NOOK_LEVEL_NAME_SIZE = 64,
+    NOOK_LEVEL_TEXT_SIZE = 256,
+    NOOK_LEVEL_NEEDS_MAX = 8,
+    NOOK_LEVEL_FILES_MAX = 16,
+    NOOK_LEVEL_ENTITIES_MAX = 4096 /**< They are looked up by name, one after the other. */
+};
 
 /** A glTF file of the level. */
 typedef struct nook_level_file {

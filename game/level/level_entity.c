@@ -134,6 +134,8 @@ nook_result nook_level_begin_entity(nook_level_reading *r, char *line)
     if (same)
         return nook_fail(NOOK_E_FORMAT, "%s: %s stands there already, in line %u; names are unique", r->lines.where,
                          name, same->line);
+    if (r->level->entity_count == NOOK_LEVEL_ENTITIES_MAX)
+        return nook_fail(NOOK_E_FORMAT, "%s: more than %d entities", r->lines.where, NOOK_LEVEL_ENTITIES_MAX);
     result = grow(r);
     if (result != NOOK_OK)
         return result;
@@ -307,6 +309,53 @@ static nook_result check_need(const nook_level *level, const nook_level_entity *
                      entity->name, need, hint(&near, text));
 }
 
+/* ---- Circles ----------------------------------------------------------------------------------------------------- */
+
+static const nook_level_entity *first_shut(const nook_level *level, const nook_level_entity *entity,
+                                           const bool *can_open)
+{
+    for (uint32_t n = 0; n < entity->need_count; n++) {
+        const nook_level_entity *need = nook_level_find(level, entity->needs[n]);
+        if (!can_open[need - level->entities])
+            return need;
+    }
+    return NULL;
+}
+
+/* Finds what can open because all that it needs can, until there is nothing new. */
+static void spread(const nook_level *level, bool *can_open)
+{
+    bool news = true;
+    while (news) {
+        news = false;
+        for (uint32_t i = 0; i < level->entity_count; i++) {
+            if (can_open[i] || first_shut(level, &level->entities[i], can_open))
+                continue;
+            can_open[i] = news = true;
+        }
+    }
+}
+
+/* What waits for itself by way of others never opens, nor what waits for that. */
+static nook_result check_circles(const nook_level *level)
+{
+    bool *can_open = calloc(level->entity_count + 1, sizeof *can_open);
+    const nook_level_entity *shut = NULL;
+    if (!can_open)
+        return nook_fail(NOOK_E_MEMORY, "%s: no memory to check it", level->path);
+    spread(level, can_open);
+    for (uint32_t i = 0; i < level->entity_count && !shut; i++)
+        shut = can_open[i] ? NULL : &level->entities[i];
+    for (uint32_t i = 0; i < level->entity_count && shut; i++)
+        shut = first_shut(level, shut, can_open); /* after so many steps one goes round in the circle */
+    const nook_level_entity *need = shut ? first_shut(level, shut, can_open) : NULL;
+    free(can_open);
+    if (!shut)
+        return NOOK_OK;
+    return nook_fail(NOOK_E_FORMAT, "%s:%u: %s needs %s, which waits for %s in turn: neither ever opens", level->path,
+                     shut->needs_line, shut->name, need->name, shut->name);
+}
+
 nook_result nook_level_check_needs(const nook_level *level)
 {
     for (uint32_t i = 0; i < level->entity_count; i++) {
@@ -317,5 +366,5 @@ nook_result nook_level_check_needs(const nook_level *level)
                 return result;
         }
     }
-    return NOOK_OK;
+    return check_circles(level);
 }

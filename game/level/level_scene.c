@@ -151,13 +151,15 @@ static nook_result take_from_library(loading *l, const nook_level_entity *entity
 /* What an entity says of nodes that stand in the level's scenes. */
 static nook_result change_nodes(loading *l, const nook_level_entity *entity)
 {
-    bool found = false;
+    bool found = false, pattern = strchr(entity->node, '*') != NULL;
     for (uint32_t p = 0; p < l->part_count; p++) {
         nook_scene *scene = l->parts[p].scene;
         for (uint32_t i = 0; i < scene->node_count && l->parts[p].nodes; i++) {
             nook_node *node = &scene->nodes[i];
             if (!nook_level_name_matches(entity->node, node->name))
                 continue;
+            if (pattern && node->mesh == NOOK_NONE)
+                continue; /* a light, a camera, a group: nobody has named it */
             found = true;
             if (nook_level_find_node(l->level, node->name) != entity)
                 continue; /* another names it more closely */

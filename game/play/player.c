@@ -2,6 +2,7 @@
  * The player's body: a capsule that hovers one step above the soles, carried by rays that feel for the ground. Stairs, edges and
  * small things are one height each for it and not contacts to stumble over; walls and large things meet the capsule.
  */
+#include "engine/core/log.h"
 #include "engine/core/vector.h"
 #include "game/play/session_internal.h"
 #include <math.h>
@@ -54,6 +55,9 @@ nook_result session_player_enter(nook_session *s)
 {
     const nook_level *level = s->desc.level;
     session_player *player = &s->player;
+    if (session_is_outside(s->desc.scene, level->start))
+        return nook_fail(NOOK_E_FORMAT, "%s: start = %g %g %g: there is nothing near it to stand on", level->path,
+                         level->start[0], level->start[1], level->start[2]);
     *player = (session_player){ .yaw = level->yaw * session_pi / 180.0,
                                 .pitch = within_neck(s, level->pitch * session_pi / 180.0),
                                 .eye_height = (double)s->params.eyes,

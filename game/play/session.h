@@ -36,7 +36,8 @@ typedef struct nook_session_desc {
 
 typedef enum nook_session_status { NOOK_SESSION_PLAYING, NOOK_SESSION_WON, NOOK_SESSION_LOST } nook_session_status;
 
-/** @return NOOK_E_NOT_FOUND an entity whose node the scene lacks (level:line); NOOK_E_ARG, NOOK_E_MEMORY; NULL then */
+/** @return NOOK_E_NOT_FOUND an entity whose node the scene lacks (level:line); NOOK_E_FORMAT a start outside of the world; NOOK_E_ARG,
+ * NOOK_E_MEMORY; NULL then */
 nook_result nook_session_create(const nook_session_desc *desc, nook_session **out_session);
 void nook_session_destroy(nook_session *session); /**< NULL is allowed. */
 /** As it was when it was created. @return NOOK_E_MEMORY, NOOK_E_ARG; destroy it then */

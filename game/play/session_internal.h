@@ -82,6 +82,8 @@ uint64_t session_mix(uint64_t hash, const void *bytes, size_t size); /**< XXH3 o
 
 /** Finds out what has a body. Once in a session's life. @return NOOK_E_NOT_FOUND, NOOK_E_MEMORY */
 nook_result session_make_things(nook_session *s);
+/** Whether a place is so far outside of a scene's box that nothing can be there but by falling. */
+bool session_is_outside(const nook_scene *scene, const double at[3]);
 /** Brings back what left the world. */
 void session_return_bodies(nook_session *s);
 const nook_level_entity *session_entity_of(const nook_session *s, const session_thing *thing); /**< Or NULL. */
@@ -97,7 +99,8 @@ nook_result session_make_bodies(nook_session *s);
 
 /* ---- player.c ---- */
 
-nook_result session_player_enter(nook_session *s); /**< At the level's start. @return NOOK_E_ARG, NOOK_E_MEMORY */
+/** At the level's start. @return NOOK_E_FORMAT that is outside of the world; NOOK_E_ARG, NOOK_E_MEMORY */
+nook_result session_player_enter(nook_session *s);
 /** Looks, crouches, and pushes the body for the next step. @param pressed buttons that went down. @return NOOK_E_MEMORY */
 nook_result session_player_move(nook_session *s, const nook_play_input *input, uint16_t pressed);
 /** Another body takes over, where the old one is and as fast. @return NOOK_E_MEMORY */

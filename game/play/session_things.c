@@ -53,6 +53,28 @@ static void find_box(const nook_mesh *mesh, const double scale[3], session_thing
     }
 }
 
+static const nook_vertex *vertex_of(const nook_scene *scene, const nook_primitive *primitive, uint32_t index)
+{
+    return &scene->vertices[primitive->first_vertex + scene->indices[primitive->first_index + index]];
+}
+
+/* Whether a mesh has a triangle that something can touch. */
+static bool has_surface(const nook_scene *scene, const nook_mesh *mesh)
+{
+    for (uint32_t p = 0; p < mesh->primitive_count; p++) {
+        const nook_primitive *primitive = &scene->primitives[mesh->first_primitive + p];
+        for (uint32_t i = 0; i + 2 < primitive->index_count; i += 3) {
+            const uint32_t corners[3] = { 0, 1, 2 };
+            float positions[9];
+            for (int k = 0; k < 3; k++)
+                memcpy(positions + 3 * k, vertex_of(scene, primitive, i + (uint32_t)k)->position, 3 * sizeof(float));
+            if (nook_physics_has_area(positions, corners))
+                return true;
+        }
+    }
+    return false;
+}
+
 /* @return false: it draws nothing, is flat, or the level wants it without a body */
 static bool describe_node(const nook_session *s, uint32_t index, session_thing *out)
 {
@@ -64,7 +86,7 @@ static bool describe_node(const nook_session *s, uint32_t index, session_thing *
     if (node->mesh == NOOK_NONE || (entity && entity->shape == NOOK_LEVEL_SHAPE_NONE))
         return false;
     const nook_mesh *mesh = &scene->meshes[node->mesh];
-    if (mesh->bounds_min[0] > mesh->bounds_max[0] || !part_transform(node, out, scale))
+    if (!has_surface(scene, mesh) || !part_transform(node, out, scale))
         return false;
     out->motion = motion_of(node, entity);
     find_box(mesh, scale, out);
@@ -103,10 +125,10 @@ void session_thing_middle(const nook_session *s, const session_thing *thing, dou
 
 /* ---- Coming back ------------------------------------------------------------------------------------------------- */
 
-static bool is_outside(const nook_scene *scene, const double at[3])
+bool session_is_outside(const nook_scene *scene, const double at[3])
 {
-    const double margin = 20.0, deepest = -20.0;
-    bool outside = at[1] < fmin(deepest, scene->bounds_min[1] - margin);
+    const double margin = 20.0;
+    bool outside = false;
     for (int k = 0; k < 3; k++)
         outside = outside || at[k] < scene->bounds_min[k] - margin || at[k] > scene->bounds_max[k] + margin;
     return outside;
@@ -119,14 +141,14 @@ void session_return_bodies(nook_session *s)
         if (thing->motion != NOOK_BODY_DYNAMIC || nook_physics_asleep(s->physics, thing->body))
             continue;
         nook_pose pose = nook_physics_pose(s->physics, thing->body, 1.0);
-        if (!is_outside(s->desc.scene, pose.position))
+        if (!session_is_outside(s->desc.scene, pose.position))
             continue;
         if (s->carry.thing == i)
             session_carry_drop(s);
         nook_physics_set_pose(s->physics, thing->body, &thing->start);
         s->returned++;
     }
-    if (is_outside(s->desc.scene, s->player.feet)) {
+    if (session_is_outside(s->desc.scene, s->player.feet)) {
         nook_pose start = nook_pose_identity();
         memcpy(start.position, s->desc.level->start, sizeof start.position);
         nook_physics_set_pose(s->physics, s->player.body, &start);

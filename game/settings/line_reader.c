@@ -38,7 +38,10 @@ static nook_result take(nook_line_reader *reader, const char *text, size_t lengt
 nook_result nook_line_next(nook_line_reader *reader, char **out_line)
 {
     assert(reader->longest < NOOK_LINE_CAPACITY);
+    static const char mark[] = "\xef\xbb\xbf"; /* of UTF-8, which some editors put first */
     *out_line = NULL;
+    if (reader->at == 0 && reader->size >= 3 && memcmp(reader->text, mark, 3) == 0)
+        reader->at = 3;
     while (reader->at < reader->size && !*out_line) {
         const char *text = reader->text + reader->at;
         const char *end = memchr(text, '\n', reader->size - reader->at);

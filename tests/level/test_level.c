@@ -249,6 +249,41 @@ static void test_needs_that_cannot_be_are_named(void **state)
 #undef MOVER
 }
 
+static void test_needs_that_go_round_in_a_circle_are_named(void **state)
+{
+    (void)state;
+#define MOVER(name) "[mover " name "]\nslide = 1 0 0\nseconds = 1\n"
+    must_refuse("scene = a.glb\n" MOVER("a") "needs = b\n" MOVER("b") "needs = a\n", "5",
+                "a needs b, which waits for a");
+    must_refuse("scene = a.glb\n[goal g]\nat = 0 0 0\nsize = 1 1 1\nneeds = a\n" MOVER("a") "needs = b\n" MOVER(
+                    "b") "needs = c\n" MOVER("c") "needs = b\n",
+                "13", "b needs c, which waits for b");
+    nook_level_free(must_read("scene = a.glb\n" MOVER("a") "needs = b c\n" MOVER("b") "needs = c\n" MOVER("c")));
+#undef MOVER
+}
+
+static void test_too_many_entities_are_refused(void **state)
+{
+    (void)state;
+    static char text[NOOK_LEVEL_ENTITIES_MAX * 24];
+    size_t size = (size_t)snprintf(text, sizeof text, "scene = a.glb\n");
+    for (int i = 0; i < NOOK_LEVEL_ENTITIES_MAX; i++)
+        size += (size_t)snprintf(text + size, sizeof text - size, "[body b%d]\n", i);
+    nook_level_free(must_read(text));
+    snprintf(text + size, sizeof text - size, "[body one_more]\n");
+    must_refuse(text, "4098", "more than 4096 entities");
+}
+
+static void test_the_mark_of_utf8_is_looked_over(void **state)
+{
+    (void)state;
+    nook_level *level = must_read("\xef\xbb\xbftitle = Stra\xc3\x9f"
+                                  "e\nscene = a.glb\n");
+    assert_string_equal(level->title, "Stra\xc3\x9f"
+                                      "e");
+    nook_level_free(level);
+}
+
 static void test_stars_stand_only_where_they_can(void **state)
 {
     (void)state;
@@ -313,6 +348,9 @@ int main(void)
         cmocka_unit_test(test_lines_of_entities_that_are_wrong_are_named),
         cmocka_unit_test(test_entities_that_lack_something_are_named),
         cmocka_unit_test(test_needs_that_cannot_be_are_named),
+        cmocka_unit_test(test_needs_that_go_round_in_a_circle_are_named),
+        cmocka_unit_test(test_too_many_entities_are_refused),
+        cmocka_unit_test(test_the_mark_of_utf8_is_looked_over),
         cmocka_unit_test(test_stars_stand_only_where_they_can),
         cmocka_unit_test(test_half_a_file_is_refused_wherever_it_is_cut_or_is_a_level),
         cmocka_unit_test(test_files_that_cannot_be_read_are_said),

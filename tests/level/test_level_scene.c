@@ -19,7 +19,7 @@ static nook_level *read_level(const char *entities)
     nook_level *level;
     play_room_write_scene("room.glb", PLAY_BOX("crate_0", 1, 0.5, 0, 1, 1, 1, PLAY_BODY(15))
                                           PLAY_BOX("crate_1", 3, 0.5, 0, 1, 1, 1, PLAY_BODY(15))
-                                              PLAY_BOX("pillar", 5, 1, 0, 1, 2, 1, ""));
+                                              PLAY_BOX("pillar", 5, 1, 0, 1, 2, 1, "") ", { 'name': 'crate_lamp' }");
     play_room_write_scene(
         "parts.glb",
         PLAY_BOX("gate", 0, 1, 0, 1, 2, 0.1,
@@ -72,7 +72,7 @@ static void test_scenes_stand_and_libraries_wait_to_be_asked(void **state)
 {
     (void)state;
     nook_scene *scene = must_load("");
-    assert_int_equal(scene->node_count, 4);
+    assert_int_equal(scene->node_count, 5);
     assert_int_equal(scene->mesh_count, 2);
     assert_true(find(scene, "crate_0")->moving && !find(scene, "floor")->moving);
     nook_scene_destroy(scene);
@@ -85,7 +85,7 @@ static void test_entities_of_libraries_become_nodes_where_they_are_put(void **st
         must_load("[mover left]\nnode = parts:gate\nat = 4 1 2\nturn = 0 90 0\nswing = 0 90 0\nseconds = 1\n"
                   "[fixed right]\nnode = parts:gate\n");
     const nook_node *left = find(scene, "left"), *right = find(scene, "right");
-    assert_int_equal(scene->node_count, 6);
+    assert_int_equal(scene->node_count, 7);
     assert_int_equal(left->mesh, 1);
     assert_true(left->moving && !right->moving);
     assert_true(left->mass == 80.0);
@@ -102,7 +102,7 @@ static void test_entities_change_nodes_that_stand_there(void **state)
     nook_scene *scene =
         must_load("[fixed crate_0]\n[body crate_*]\nmass = 2\n[spinner turning]\nnode = pillar\naxis = 0 1 0\nrpm = 3\n"
                   "at = 5 3 0\n");
-    assert_int_equal(scene->node_count, 4);
+    assert_int_equal(scene->node_count, 5);
     assert_false(find(scene, "crate_0")->moving);
     assert_true(find(scene, "crate_1")->moving);
     assert_true(find(scene, "pillar")->moving);
@@ -110,6 +110,16 @@ static void test_entities_change_nodes_that_stand_there(void **state)
     assert_true(find(scene, "pillar")->world_from_local.m[5] == 2.0);
     assert_true(scene->bounds_max[1] == 4.0);
     nook_scene_destroy(scene);
+}
+
+static void test_patterns_look_over_nodes_that_draw_nothing(void **state)
+{
+    (void)state;
+    nook_scene *scene = must_load("[body crate_*]\nmass = 3\n[fixed *]\n");
+    assert_true(find(scene, "crate_0")->moving && find(scene, "crate_1")->moving && !find(scene, "pillar")->moving);
+    nook_scene_destroy(scene);
+    must_refuse("[body crate_lamp*]\n", NOOK_E_NOT_FOUND, "there is no node crate_lamp*");
+    must_refuse("[body crate_lamp]\n", NOOK_E_FORMAT, "crate_lamp of ");
 }
 
 static void test_nodes_that_no_file_has_are_named_with_what_is_near(void **state)
@@ -151,6 +161,7 @@ int main(void)
         cmocka_unit_test(test_scenes_stand_and_libraries_wait_to_be_asked),
         cmocka_unit_test(test_entities_of_libraries_become_nodes_where_they_are_put),
         cmocka_unit_test(test_entities_change_nodes_that_stand_there),
+        cmocka_unit_test(test_patterns_look_over_nodes_that_draw_nothing),
         cmocka_unit_test(test_nodes_that_no_file_has_are_named_with_what_is_near),
         cmocka_unit_test(test_nodes_that_cannot_be_one_body_are_refused),
         cmocka_unit_test(test_a_file_that_is_missing_fails_the_level),

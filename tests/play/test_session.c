@@ -1,6 +1,8 @@
+#include "engine/core/file.h"
 #include "game/components.h"
 #include "tests/support/log_capture.h"
 #include "tests/support/play_room.h"
+#include "tests/support/scratch.h"
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -273,6 +275,58 @@ static void test_a_level_whose_scene_lacks_a_node_is_refused_with_its_line(void 
     play_room_close(&room);
 }
 
+/* A level of two files, of which the second draws only triangles that are lines. */
+static play_room open_room_with_wires(void)
+{
+    play_room room = { 0 };
+    char path[1024];
+    const char text[] = "scene = solid.glb\nscene = wires.glb\n";
+    play_room_write_scene("solid.glb", "");
+    play_room_write_scene("wires.glb", PLAY_BOX("wire", 0, 0.5, -1, 1, 1, 1, ""));
+    nook_scratch_path(path, sizeof path, "wires.level");
+    assert_int_equal(nook_file_write(path, text, sizeof text - 1), NOOK_OK);
+    assert_int_equal(nook_level_read(path, &room.level), NOOK_OK);
+    assert_int_equal(nook_level_scene_load(room.level, NULL, &room.scene), NOOK_OK);
+    assert_int_equal(room.scene->mesh_count, 2);
+    const nook_primitive *lines = &room.scene->primitives[room.scene->meshes[1].first_primitive];
+    for (uint32_t i = 0; i < lines->index_count; i++)
+        room.scene->indices[lines->first_index + i] = i % 3 == 0;
+    assert_int_equal(nook_game_world_create(room.scene, &room.world), NOOK_OK);
+    return room;
+}
+
+static void test_what_has_no_surface_has_no_body_and_harms_nothing(void **state)
+{
+    (void)state;
+    const nook_play_input forward = { .forward = 127 };
+    play_room room = open_room_with_wires();
+    const nook_session_desc desc = { room.level, room.scene, room.world, 1 };
+    assert_int_equal(nook_session_create(&desc, &room.session), NOOK_OK);
+    assert_int_equal(nook_session_body_of(room.session, "wire").id, 0);
+    play_room_tick(&room, &forward, 60);
+    assert_true(play_room_look(&room).grounded && play_room_look(&room).feet[2] < -1.0);
+    play_room_close(&room);
+}
+
+static void test_a_start_far_from_everything_is_refused(void **state)
+{
+    (void)state;
+    static const double starts[][3] = { { 1000, 0, 0 }, { 0, -500, 0 }, { 0, 0, -1e6 } };
+    play_room room = play_room_open("", "");
+    nook_session *session;
+    nook_log_capture log;
+    const nook_session_desc desc = { room.level, room.scene, room.world, 0 };
+    for (size_t i = 0; i < NOOK_COUNT(starts); i++) {
+        memcpy(room.level->start, starts[i], sizeof starts[i]);
+        nook_log_capture_begin(&log);
+        assert_int_equal(nook_session_create(&desc, &session), NOOK_E_FORMAT);
+        nook_log_capture_end();
+        assert_null(session);
+        assert_true(log.errors == 1 && strstr(log.text, "there is nothing near it to stand on"));
+    }
+    play_room_close(&room);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -288,6 +342,8 @@ int main(void)
         cmocka_unit_test(test_masses_are_those_of_level_file_or_box_in_this_order),
         cmocka_unit_test(test_states_are_asked_for_by_name),
         cmocka_unit_test(test_a_level_whose_scene_lacks_a_node_is_refused_with_its_line),
+        cmocka_unit_test(test_what_has_no_surface_has_no_body_and_harms_nothing),
+        cmocka_unit_test(test_a_start_far_from_everything_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
