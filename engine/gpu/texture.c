@@ -102,6 +102,28 @@ nook_result nook_texture_create_mipped(nook_gpu *gpu, uint32_t format, uint32_t 
     return NOOK_OK;
 }
 
+nook_result nook_texture_create_buffer(nook_gpu *gpu, nook_buffer buffer, nook_texture *out_texture)
+{
+    const nook_gl *gl = gpu->gl;
+    const size_t count = buffer.size / (4 * sizeof(float));
+    nook_texture texture = { .target = GL_TEXTURE_BUFFER, .height = 1, .depth = 1, .format = GL_RGBA32F };
+    GLint most = 0;
+    assert(buffer.id != 0);
+    gl->GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
+    if (count > (size_t)most)
+        return nook_fail(NOOK_E_RANGE, "texture: a buffer of %zu texels; the device takes %d", count, most);
+    texture.width = (uint32_t)count;
+    nook_gpu_take_errors(gpu, "a call before a texture was made");
+    gl->CreateTextures(GL_TEXTURE_BUFFER, 1, &texture.id);
+    gl->TextureBuffer(texture.id, texture.format, buffer.id);
+    if (gl->GetError() != GL_NO_ERROR) {
+        gl->DeleteTextures(1, &texture.id);
+        return nook_fail(NOOK_E_MEMORY, "texture: no room for one of a buffer");
+    }
+    *out_texture = texture;
+    return NOOK_OK;
+}
+
 void nook_texture_destroy(nook_gpu *gpu, nook_texture *texture)
 {
     if (texture->id != 0)

@@ -31,6 +31,8 @@ static nook_result create_buffers(nook_ao *ao, size_t frame_size)
     if (result == NOOK_OK)
         result = nook_buffer_create(ao->gpu, NULL, ao->occluder_max * sizeof(ao_gpu_occluder), &ao->occluder_buffer);
     if (result == NOOK_OK)
+        result = nook_texture_create_buffer(ao->gpu, ao->occluder_buffer, &ao->occluder_texture);
+    if (result == NOOK_OK)
         result = nook_buffer_create(ao->gpu, NULL, sizeof(ao_counts), &ao->counter);
     return result;
 }
@@ -76,6 +78,7 @@ void nook_ao_destroy(nook_ao *ao)
     volume_atlas_release(&ao->atlas);
     ao_meshes_release(ao);
     nook_buffer_destroy(ao->gpu, &ao->frame);
+    nook_texture_destroy(ao->gpu, &ao->occluder_texture);
     nook_buffer_destroy(ao->gpu, &ao->occluder_buffer);
     nook_buffer_destroy(ao->gpu, &ao->counter);
     free(ao->occluders);

@@ -76,6 +76,7 @@ struct nook_ao {
     uint32_t slot_count, current;
     ao_targets targets;
     nook_buffer frame, occluder_buffer, counter;
+    nook_texture occluder_texture; /**< The buffer's rows as texels. */
     volume_atlas atlas;
     ao_mesh *meshes;
     uint32_t mesh_count, mesh_capacity, next_mesh_id;

@@ -29,7 +29,7 @@ static void dispatch_count(nook_ao *ao, const nook_ao_pass *pass, nook_program p
     uint32_t groups[2];
     nook_bind_uniform(ao->gpu, 0, pass->frame);
     nook_bind_texture(ao->gpu, 0, pass->depth);
-    nook_bind_storage(ao->gpu, 3, pass->occluders);
+    nook_bind_texture(ao->gpu, 3, pass->occluder_texture);
     nook_bind_image(ao->gpu, 0, counts, GL_WRITE_ONLY);
     nook_program_use(ao->gpu, program);
     nook_uniform_int(ao->gpu, LOCATION_COUNT, &(const int32_t){ (int32_t)pass->occluder_count }, 1);
@@ -89,7 +89,7 @@ nook_result nook_ao_snapshot_take(nook_ao *ao, const nook_ao_frame *frame, nook_
     nook_texture_read(ao->gpu, s.pass.normal, GL_RG, GL_UNSIGNED_SHORT, s.normal, 2 * pixels * sizeof *s.normal);
     const nook_texture none = { 0 };
     s.pass.gpu = NULL;
-    s.pass.depth = s.pass.normal = s.pass.visibility = s.pass.volume_atlas = none;
+    s.pass.depth = s.pass.normal = s.pass.visibility = s.pass.volume_atlas = s.pass.occluder_texture = none;
     s.pass.frame = s.pass.params = s.pass.counter = s.pass.occluders = (nook_buffer){ 0 };
     s.pass.progress = NULL;
     s.pass.progress_user = NULL;

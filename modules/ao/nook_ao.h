@@ -45,7 +45,7 @@ typedef struct nook_ao_desc {
     uint32_t version;       /**< NOOK_AO_VERSION. */
     struct nook_gpu *gpu;   /**< Outlives us. A host with its own loader makes one with nook_gpu_create. */
     uint32_t width, height; /**< Full-resolution target, pixels. */
-    uint32_t max_occluders; /**< Per frame; 0 means 4096. */
+    uint32_t max_occluders; /**< Per frame; 0 means 4096. Every device takes 7281, most many more. */
     /** Called while a long record works (the reference): fraction in [0, 1]. NULL: silence. */
     void (*progress)(void *user, double fraction);
     void *progress_user;

@@ -165,6 +165,7 @@ static nook_ao_pass make_pass(nook_ao *ao, const nook_ao_frame *frame, uint32_t 
         .progress_user = ao->progress_user,
         .volume_atlas = ao->atlas.texture,
         .occluders = ao->occluder_buffer,
+        .occluder_texture = ao->occluder_texture,
         .occluder_count = ao->statistics.occluders,
         .meshes = ao->mesh_views,
         .mesh_count = ao->mesh_count,
@@ -180,7 +181,7 @@ static void bind_pass(const nook_ao_pass *pass)
     nook_bind_texture(pass->gpu, 0, pass->depth);
     nook_bind_texture(pass->gpu, 1, pass->normal);
     nook_bind_texture(pass->gpu, 2, pass->volume_atlas);
-    nook_bind_storage(pass->gpu, 3, pass->occluders);
+    nook_bind_texture(pass->gpu, 3, pass->occluder_texture);
     nook_bind_storage(pass->gpu, AO_BINDING_COUNTER, pass->counter);
     nook_bind_image(pass->gpu, 0, pass->visibility, GL_READ_WRITE);
 }

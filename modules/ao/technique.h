@@ -63,8 +63,9 @@ typedef struct nook_ao_pass {
     void *progress_user;
 
     /** NOOK_AO_IN_VOLUMES: bound by the host for modules/ao/volumes.h; see shaders/ao/occluders.glsl. */
-    nook_texture volume_atlas; /**< R8 3D. Binding 2. */
-    nook_buffer occluders;     /**< Storage, array of Occluder. Binding 3. */
+    nook_texture volume_atlas;     /**< R8 3D. Binding 2. */
+    nook_texture occluder_texture; /**< RGBA32F of a buffer: the occluders' rows. Binding 3. */
+    nook_buffer occluders;         /**< That buffer. */
     uint32_t occluder_count;
 
     /** NOOK_AO_IN_MESHES. */

@@ -16,7 +16,7 @@ void main()
         for (int chunk = 0; chunk < occluder_count; chunk += CHUNK) {
             tile_list(chunk, occluder_count);
             for (uint i = 0u; depth > 0.0 && i < tile_count; i++) {
-                Occluder o = occluders[tile_items[i]];
+                Occluder o = occluder_at(tile_items[i]);
                 count += uint(is_near(o, to_voxel(o, position)));
             }
         }

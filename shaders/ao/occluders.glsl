@@ -10,13 +10,24 @@ struct Occluder {
     vec4 atlas;               // voxel of the atlas that is our (0, 0, 0)
     vec4 centre;              // view space
 };
-layout(std430, binding = 3) readonly buffer Occluders {
-    Occluder occluders[];
-};
+const int OCCLUDER_ROWS = 9;
+layout(binding = 3) uniform samplerBuffer occluder_rows; // a software driver reads storage at half the speed
 layout(binding = 2) uniform sampler3D volume_atlas; // linear filtering
 
 // The filtered volume is 0 outside of [MARGIN, size - MARGIN]: the outermost voxels are empty.
 const float MARGIN = 0.5;
+
+vec4 occluder_row(int occluder, int row)
+{
+    return texelFetch(occluder_rows, occluder * OCCLUDER_ROWS + row);
+}
+
+Occluder occluder_at(int i)
+{
+    return Occluder(vec4[3](occluder_row(i, 0), occluder_row(i, 1), occluder_row(i, 2)),
+                    vec4[3](occluder_row(i, 3), occluder_row(i, 4), occluder_row(i, 5)), occluder_row(i, 6),
+                    occluder_row(i, 7), occluder_row(i, 8));
+}
 
 vec3 to_voxel(Occluder o, vec3 position)
 {

@@ -47,7 +47,7 @@ void tile_list(int first, int end)
     barrier();
     int last = min(first + CHUNK, end);
     for (int i = first + int(gl_LocalInvocationIndex); i < last; i += TILE_SIZE * TILE_SIZE) {
-        if (tile_reaches(occluders[i]))
+        if (tile_reaches(occluder_at(i)))
             tile_items[atomicAdd(tile_count, 1u)] = i;
     }
     barrier();

@@ -129,7 +129,7 @@ float sum_union(float sum, bool inside, vec3 position, vec3 normal, ivec2 pixel)
             if (first == part.x || part.w - part.z > CHUNK)
                 tile_list(chunk, part.w);
             for (uint i = 0u; inside && i < tile_count; i++) {
-                Occluder o = occluders[tile_items[i]];
+                Occluder o = occluder_at(tile_items[i]);
                 Receiver r = receive(o, position, normal);
                 if (!r.can_see)
                     continue;
@@ -161,7 +161,7 @@ float multiply_visibilities(float visibility, bool inside, vec3 position, vec3 n
     for (int chunk = part.z; chunk < part.w; chunk += CHUNK) {
         tile_list(chunk, part.w);
         for (uint i = 0u; inside && i < tile_count; i++) {
-            Occluder o = occluders[tile_items[i]];
+            Occluder o = occluder_at(tile_items[i]);
             Receiver r = receive(o, position, normal);
             if (!r.can_see)
                 continue;

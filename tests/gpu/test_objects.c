@@ -198,6 +198,50 @@ static void test_buffer_update_replaces_only_its_bytes(void **state)
     assert_int_equal(buffer.id, 0);
 }
 
+static void test_texture_of_a_buffer_shows_what_the_buffer_holds_now(void **state)
+{
+    nook_gpu *gpu = test_gpu_of(state);
+    enum { COUNT = 5 };
+    float numbers[COUNT][4], values[COUNT][4];
+    nook_buffer buffer, out;
+    nook_texture texture;
+    assert_int_equal(nook_buffer_create(gpu, NULL, sizeof numbers, &buffer), NOOK_OK);
+    assert_int_equal(nook_buffer_create(gpu, NULL, sizeof values, &out), NOOK_OK);
+    assert_int_equal(nook_texture_create_buffer(gpu, buffer, &texture), NOOK_OK);
+    assert_int_equal(texture.width, COUNT);
+    for (int turn = 0; turn < 2; turn++) {
+        for (int i = 0; i < COUNT * 4; i++)
+            numbers[i / 4][i % 4] = (float)(100 * turn + i) + 0.125f;
+        nook_buffer_update(gpu, buffer, 0, numbers, sizeof numbers);
+        nook_bind_texture(gpu, 2, texture);
+        nook_bind_storage(gpu, 4, out);
+        nook_dispatch(gpu, compute(gpu, "tests/gpu/shaders/read_texels.comp.glsl", ""), 1, 1, 1);
+        nook_buffer_read(gpu, out, 0, values, sizeof values);
+        assert_memory_equal(values, numbers, sizeof values);
+    }
+    nook_texture_destroy(gpu, &texture);
+    nook_buffer_destroy(gpu, &buffer);
+    nook_buffer_destroy(gpu, &out);
+}
+
+static void test_texture_of_a_buffer_refuses_more_texels_than_the_device_takes(void **state)
+{
+    nook_gpu *gpu = test_gpu_of(state);
+    nook_buffer buffer;
+    nook_texture texture = { .id = 7 };
+    GLint most = 0;
+    int lines = 0;
+    gpu->gl->GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
+    assert_int_equal(nook_buffer_create(gpu, NULL, 16, &buffer), NOOK_OK);
+    const nook_buffer larger = { buffer.id, ((size_t)most + 1) * 16 }; /* it is refused before it is looked at */
+    nook_log_set_sink(ignore_log, &lines);
+    assert_int_equal(nook_texture_create_buffer(gpu, larger, &texture), NOOK_E_RANGE);
+    nook_log_set_sink(NULL, NULL);
+    assert_int_equal(lines, 1);
+    assert_int_equal(texture.id, 7);
+    nook_buffer_destroy(gpu, &buffer);
+}
+
 static void test_buffer_create_refuses_no_bytes(void **state)
 {
     nook_gpu *gpu = test_gpu_of(state);
@@ -267,6 +311,8 @@ int main(void)
         TEST(test_mipped_texture_averages_its_texels),
         TEST(test_texture_create_refuses_sizes_and_formats_it_cannot_have),
         TEST(test_buffer_update_replaces_only_its_bytes),
+        TEST(test_texture_of_a_buffer_shows_what_the_buffer_holds_now),
+        TEST(test_texture_of_a_buffer_refuses_more_texels_than_the_device_takes),
         TEST(test_buffer_create_refuses_no_bytes),
         TEST(test_gpu_check_tells_an_error_once),
         TEST(test_gpu_check_still_tells_what_a_creation_found),
