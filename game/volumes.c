@@ -91,9 +91,11 @@ void nook_scene_volume_release(nook_scene_volume *volume)
     free(volume->positions);
     free(volume->indices);
     free(volume->bake.bytes);
+    free(volume->surfels.bytes);
     volume->positions = NULL;
     volume->indices = NULL;
     volume->bake.bytes = NULL;
+    volume->surfels.bytes = NULL;
 }
 
 static void free_volume(nook_scene_volume *volume)
@@ -317,17 +319,24 @@ static nook_result check_kept(const nook_volumes_desc *desc, const nook_bake *ba
     return NOOK_OK;
 }
 
+static nook_result bake_kind(const nook_volumes_desc *desc, const nook_scene_volume *volume, nook_volume_kind kind,
+                             nook_bake *out_bake, bool *warned)
+{
+    const nook_triangles triangles = { volume->positions, 0, volume->vertex_count, volume->indices,
+                                       volume->index_count };
+    const nook_voxelize_desc how = { .resolution = volume->resolution, .threads = desc->threads, .kind = kind };
+    nook_result result = nook_bake_cached(desc->cache_dir, volume->name, &triangles, &how, out_bake);
+    return result == NOOK_OK ? check_kept(desc, out_bake, warned) : result;
+}
+
 static nook_result bake_all(const nook_volumes_desc *desc, nook_scene_volumes *volumes)
 {
     bool warned = false;
     for (uint32_t i = 0; i < volumes->volume_count; i++) {
         nook_scene_volume *volume = &volumes->volumes[i];
-        const nook_triangles triangles = { volume->positions, 0, volume->vertex_count, volume->indices,
-                                           volume->index_count };
-        const nook_voxelize_desc how = { .resolution = volume->resolution, .threads = desc->threads };
-        nook_result result = nook_bake_cached(desc->cache_dir, volume->name, &triangles, &how, &volume->bake);
-        if (result == NOOK_OK)
-            result = check_kept(desc, &volume->bake, &warned);
+        nook_result result = bake_kind(desc, volume, NOOK_VOLUME_BINARY, &volume->bake, &warned);
+        if (result == NOOK_OK && desc->surfels)
+            result = bake_kind(desc, volume, NOOK_VOLUME_SURFEL, &volume->surfels, &warned);
         if (result != NOOK_OK)
             return result;
         if (desc->progress)

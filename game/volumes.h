@@ -34,6 +34,7 @@ typedef struct nook_scene_volume {
     uint32_t instances;  /**< Occluders that it stands for. */
     uint32_t resolution; /**< What it was baked at: voxels on the longest side. */
     nook_bake bake;      /**< The .nkv file image, what it holds, bake time, cache hit. */
+    nook_bake surfels;   /**< The same as surfel bricks; zero unless they were asked for. */
 } nook_scene_volume;
 
 /** A body in the scene. */
@@ -57,6 +58,7 @@ typedef struct nook_volumes_desc {
     double r_max;          /**< Metres; 0: NOOK_VOLUMES_R_MAX_DEFAULT of the diagonal. */
     const char *cache_dir; /**< NULL: no cache. */
     bool must_keep;        /**< Volumes that cannot be kept in the cache are a failure; else one warning. */
+    bool surfels;          /**< Bakes each volume as surfel bricks, too. */
     uint32_t threads;      /**< 0: all cores. */
     /** Called after each volume; NULL for none. `index` runs from 0 to count - 1. */
     void (*progress)(void *user, const nook_scene_volume *done, uint32_t index, uint32_t count);

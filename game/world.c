@@ -33,6 +33,7 @@ static nook_result bake(const nook_scene *scene, const nook_game_world_desc *des
     const nook_volumes_desc volumes = { .resolution = desc->resolution,
                                         .r_max = desc->r_max,
                                         .cache_dir = desc->cache,
+                                        .surfels = true,
                                         .progress = show_bake,
                                         .user = &progress };
     nook_result result = nook_volumes_bake(scene, &volumes, out_volumes);
@@ -60,6 +61,9 @@ static nook_result upload(nook_ao *ao, const nook_scene_volume *volume, nook_vol
 {
     nook_result result =
         nook_ao_add_volume(ao, volume->name, volume->bake.bytes, volume->bake.size, &out_occluder->volume);
+    if (result == NOOK_OK && volume->surfels.bytes)
+        result =
+            nook_ao_extend_volume(ao, out_occluder->volume, volume->name, volume->surfels.bytes, volume->surfels.size);
     if (result != NOOK_OK)
         return result;
     return nook_ao_add_mesh(ao, volume->positions, volume->vertex_count, volume->indices, (uint32_t)volume->index_count,

@@ -38,11 +38,13 @@ static bool has_extension(const nook_gl *gl, const char *name)
 static void read_limits(nook_gpu *gpu)
 {
     const nook_gl *gl = gpu->gl;
-    GLint side = 0, side_3d = 0;
+    GLint side = 0, side_3d = 0, texels = 0;
     gl->GetIntegerv(GL_MAX_TEXTURE_SIZE, &side);
     gl->GetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &side_3d);
+    gl->GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &texels);
     gpu->max_texture_size = (uint32_t)side;
     gpu->max_texture_3d_size = (uint32_t)side_3d;
+    gpu->max_texture_buffer_size = (uint32_t)texels;
     gpu->renderer = (const char *)gl->GetString(GL_RENDERER);
     gpu->version = (const char *)gl->GetString(GL_VERSION);
     gpu->software = nook_renderer_is_software(gpu->renderer);

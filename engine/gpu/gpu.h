@@ -69,6 +69,7 @@ struct nook_gpu {
     const char *version;  /**< GL_VERSION. */
     bool software;        /**< llvmpipe or softpipe: timer queries lie there (docs/architecture.md). */
     uint32_t max_texture_size, max_texture_3d_size;
+    uint32_t max_texture_buffer_size; /**< Texels. */
     struct nook_gpu_cache *cache;
 };
 
@@ -105,11 +106,12 @@ nook_result nook_texture_create_3d(nook_gpu *gpu, uint32_t format, uint32_t widt
 nook_result nook_texture_create_mipped(nook_gpu *gpu, uint32_t format, uint32_t width, uint32_t height,
                                        const void *rgba8, nook_texture *out_texture);
 /**
- * A buffer as a row of RGBA32F texels, for texelFetch of a samplerBuffer: on software GL half the time of a load from storage.
+ * A buffer as a row of texels, for texelFetch of a samplerBuffer or usamplerBuffer: on software GL half the time of a load from storage.
  * Shows what the buffer holds whenever it is read; destroy it before the buffer.
- * @return NOOK_E_RANGE more texels than the device takes; NOOK_E_MEMORY
+ * @param format GL_RGBA32F, GL_RGBA32UI or GL_RG32UI
+ * @return NOOK_E_RANGE more texels than the device takes: max_texture_buffer_size; NOOK_E_MEMORY
  */
-nook_result nook_texture_create_buffer(nook_gpu *gpu, nook_buffer buffer, nook_texture *out_texture);
+nook_result nook_texture_create_buffer(nook_gpu *gpu, uint32_t format, nook_buffer buffer, nook_texture *out_texture);
 void nook_texture_destroy(nook_gpu *gpu, nook_texture *texture); /**< id 0 is allowed; becomes zero. */
 /**
  * Replaces level 0 whole: rows tightly packed, bottom row (for 3D: slice 0) first.

@@ -102,16 +102,21 @@ nook_result nook_texture_create_mipped(nook_gpu *gpu, uint32_t format, uint32_t 
     return NOOK_OK;
 }
 
-nook_result nook_texture_create_buffer(nook_gpu *gpu, nook_buffer buffer, nook_texture *out_texture)
+/* Bytes; 0 for a format that nobody here shows a buffer in. */
+static size_t buffer_texel_size(uint32_t format)
+{
+    return format == GL_RGBA32F || format == GL_RGBA32UI ? 16 : format == GL_RG32UI ? 8 : 0;
+}
+
+nook_result nook_texture_create_buffer(nook_gpu *gpu, uint32_t format, nook_buffer buffer, nook_texture *out_texture)
 {
     const nook_gl *gl = gpu->gl;
-    const size_t count = buffer.size / (4 * sizeof(float));
-    nook_texture texture = { .target = GL_TEXTURE_BUFFER, .height = 1, .depth = 1, .format = GL_RGBA32F };
-    GLint most = 0;
-    assert(buffer.id != 0);
-    gl->GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
-    if (count > (size_t)most)
-        return nook_fail(NOOK_E_RANGE, "texture: a buffer of %zu texels; the device takes %d", count, most);
+    assert(buffer.id != 0 && buffer_texel_size(format) != 0);
+    const size_t count = buffer.size / buffer_texel_size(format);
+    nook_texture texture = { .target = GL_TEXTURE_BUFFER, .height = 1, .depth = 1, .format = format };
+    if (count > gpu->max_texture_buffer_size)
+        return nook_fail(NOOK_E_RANGE, "texture: a buffer of %zu texels; the device takes %u", count,
+                         gpu->max_texture_buffer_size);
     texture.width = (uint32_t)count;
     nook_gpu_take_errors(gpu, "a call before a texture was made");
     gl->CreateTextures(GL_TEXTURE_BUFFER, 1, &texture.id);

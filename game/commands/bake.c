@@ -30,25 +30,33 @@ static void tell_progress(void *user, const nook_scene_volume *done, uint32_t in
 {
     (void)user;
     nook_log_info("[%u/%u] %s: %u voxels a side, %.1f ms%s", index + 1, count, done->name, done->resolution,
-                  done->bake.ms, done->bake.cache_hit ? ", from the cache" : "");
+                  done->bake.ms + done->surfels.ms,
+                  done->bake.cache_hit && done->surfels.cache_hit ? ", from the cache" : "");
+}
+
+static void print_row(const nook_scene_volume *v, const nook_bake *bake)
+{
+    const nook_volume_info *info = &bake->info;
+    char size[40], time[32];
+    snprintf(size, sizeof size, "%ux%ux%u", info->width, info->height, info->depth);
+    snprintf(time, sizeof time, "%.1f", bake->ms);
+    printf("%-28.28s %-6s %9zu %6u %13s %10.3g %10llu %10zu %9s\n", v->name, nook_volume_kind_name(info->kind),
+           v->index_count / 3, v->instances, size, info->voxel_size, (unsigned long long)info->occupied, bake->size,
+           bake->cache_hit ? "cached" : time);
 }
 
 static void print_table(const nook_scene_volumes *volumes)
 {
     size_t bytes = 0;
     double ms = 0.0;
-    printf("%-28s %9s %6s %13s %10s %10s %10s %9s\n", "volume", "triangles", "uses", "voxels", "voxel m", "occupied",
-           "bytes", "ms");
+    printf("%-28s %-6s %9s %6s %13s %10s %10s %10s %9s\n", "volume", "kind", "triangles", "uses", "voxels", "voxel m",
+           "occupied", "bytes", "ms");
     for (uint32_t i = 0; i < volumes->volume_count; i++) {
         const nook_scene_volume *v = &volumes->volumes[i];
-        const nook_volume_info *info = &v->bake.info;
-        char size[40], time[32];
-        snprintf(size, sizeof size, "%ux%ux%u", info->width, info->height, info->depth);
-        snprintf(time, sizeof time, "%.1f", v->bake.ms);
-        printf("%-28.28s %9zu %6u %13s %10.3g %10llu %10zu %9s\n", v->name, v->index_count / 3, v->instances, size,
-               info->voxel_size, (unsigned long long)info->occupied, v->bake.size, v->bake.cache_hit ? "cached" : time);
-        bytes += v->bake.size;
-        ms += v->bake.ms;
+        print_row(v, &v->bake);
+        print_row(v, &v->surfels);
+        bytes += v->bake.size + v->surfels.size;
+        ms += v->bake.ms + v->surfels.ms;
     }
     printf("%u volumes, %u occluders, %zu bytes, %.1f ms, r_max %.4g m\n", volumes->volume_count,
            volumes->occluder_count, bytes, ms, volumes->r_max);
@@ -141,6 +149,7 @@ int nook_command_bake(const nook_app *app, int argc, char **argv)
     if (settle(&request) != NOOK_OK)
         return NOOK_EXIT_FAILED;
     const nook_volumes_desc desc = { .resolution = (uint32_t)request.resolution,
+                                     .surfels = true,
                                      .r_max = request.r_max,
                                      .cache_dir = request.cache,
                                      .must_keep = true,

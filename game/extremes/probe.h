@@ -6,7 +6,7 @@
 typedef struct nook_probe_occluder {
     float voxel_from_view[3][4];
     float normal_from_view[3][4];
-    float size[4], atlas[4], centre[4];
+    float size[4], place[4], centre[4];
 } nook_probe_occluder;
 
 /** What the last record gave it. Starts as zero; release with nook_probe_free. The user of the view's progress. */

@@ -53,6 +53,7 @@ static void *run(void *user)
     nook_scene_loading *load = user;
     unsigned cores = nook_core_count();
     const nook_volumes_desc volumes = { .resolution = load->desc.resolution,
+                                        .surfels = true,
                                         .r_max = load->desc.r_max,
                                         .cache_dir = load->desc.cache,
                                         .threads = cores > 1 ? cores - 1 : 1 }; /* one is left for the picture */

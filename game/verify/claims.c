@@ -2,18 +2,29 @@
 #include <string.h>
 
 static const nook_verify_claim claims[] = {
-    { .technique = "reference",
+    { .name = "reference",
+      .technique = "reference",
       .target = NOOK_VERIFY_EQUATION_1,
       .tolerance = 0.005,
       .settings = "reference rays=4096",
       .says = "equation 1, by rays against the triangles" },
-    { .technique = "volume",
+    { .name = "volume",
+      .technique = "volume",
       .target = NOOK_VERIFY_EQUATION_1,
       .tolerance = 0.02,
       .plane = 1.0 / 255,
       .settings = "volume rays=1024 steps=1024 ao.filter=none",
       .says = "equation 1, to what voxels can hold" },
-    { .technique = "hsao",
+    { .name = "volume.surfel",
+      .technique = "volume",
+      .initial = "volume kind=surfel",
+      .target = NOOK_VERIFY_EQUATION_1,
+      .tolerance = 0.01,
+      .plane = 0.0,
+      .settings = "volume kind=surfel rays=1024 ao.filter=none",
+      .says = "equation 1, to what planes in voxels can hold" },
+    { .name = "hsao",
+      .technique = "hsao",
       .target = NOOK_VERIFY_EQUATION_1,
       .tolerance = 0.04,
       .plane = 0.01,
@@ -22,7 +33,8 @@ static const nook_verify_claim claims[] = {
       .samples = 16, /* one ray above the horizon in each direction */
       .settings = "hsao directions=16 steps=48 rays=1 ray_steps=24 ao.filter=none",
       .says = "equation 1, of what the depth buffer holds" },
-    { .technique = "gtao",
+    { .name = "gtao",
+      .technique = "gtao",
       .target = NOOK_VERIFY_EQUATION_1,
       .tolerance = 0.03,
       .plane = 0.01,
@@ -30,7 +42,8 @@ static const nook_verify_claim claims[] = {
       .horizons = true,
       .settings = "gtao slices=16 steps=48 ao.filter=none",
       .says = "equation 1, of what the depth buffer holds" },
-    { .technique = "hbao",
+    { .name = "hbao",
+      .technique = "hbao",
       .target = NOOK_VERIFY_SOLID_ANGLE,
       .tolerance = 0.03,
       .plane = 0.01,
@@ -38,7 +51,8 @@ static const nook_verify_claim claims[] = {
       .horizons = true,
       .settings = "hbao directions=32 steps=48 ao.filter=none",
       .says = "the solid angle below the horizon, without the cosine (erratum C18)" },
-    { .technique = "ssao",
+    { .name = "ssao",
+      .technique = "ssao",
       .target = NOOK_VERIFY_HALF_BALL,
       .tolerance = 0.03,
       .plane = 0.01,
@@ -59,20 +73,29 @@ static const nook_verify_exception exceptions[] = {
       "a slit five pixels high: points share texels with what hides them" },
 };
 
-const nook_verify_claim *nook_verify_claim_of(const char *technique)
+const nook_verify_claim *nook_verify_claim_of(const char *name)
 {
     for (size_t i = 0; i < sizeof claims / sizeof *claims; i++) {
-        if (strcmp(claims[i].technique, technique) == 0)
+        if (strcmp(claims[i].name, name) == 0)
             return &claims[i];
     }
     return NULL;
 }
 
-const nook_verify_exception *nook_verify_exception_for(const char *technique, const char *fixture, const char *point)
+const nook_verify_claim *nook_verify_claim_at(const char *technique, size_t index)
+{
+    for (size_t i = 0; i < sizeof claims / sizeof *claims; i++) {
+        if (strcmp(claims[i].technique, technique) == 0 && index-- == 0)
+            return &claims[i];
+    }
+    return NULL;
+}
+
+const nook_verify_exception *nook_verify_exception_for(const char *claim, const char *fixture, const char *point)
 {
     for (size_t i = 0; i < sizeof exceptions / sizeof *exceptions; i++) {
         const nook_verify_exception *e = &exceptions[i];
-        if (strcmp(e->technique, technique) == 0 && strcmp(e->fixture, fixture) == 0 &&
+        if (strcmp(e->claim, claim) == 0 && strcmp(e->fixture, fixture) == 0 &&
             strncmp(e->point, point, strlen(e->point)) == 0)
             return e;
     }

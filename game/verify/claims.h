@@ -14,7 +14,10 @@ typedef enum nook_verify_target {
 } nook_verify_target;
 
 typedef struct nook_verify_claim {
+    const char *name; /**< Of its rows: the technique's, or of another kind of it, "volume.surfel". */
     const char *technique;
+    const char
+        *initial; /**< The kind of technique that its rows are about, as it comes: a setting. NULL: the technique. */
     const char *settings; /**< As in a settings file: what the claim is made for, and little noise. */
     const char *says;     /**< One line. */
     double tolerance;
@@ -27,17 +30,19 @@ typedef struct nook_verify_claim {
 
 /** A fixture on which a technique claims something else. */
 typedef struct nook_verify_exception {
-    const char *technique, *fixture;
-    const char *point;    /**< The start of the points that it is about; "": all. */
-    const char *settings; /**< In place of the claim's; NULL: no claim is made. */
-    double tolerance;     /**< In place of the claim's; 0: the same. */
-    const char *reason;   /**< One line; docs/techniques.md says more. */
+    const char *claim, *fixture; /**< Names. */
+    const char *point;           /**< The start of the points that it is about; "": all. */
+    const char *settings;        /**< In place of the claim's; NULL: no claim is made. */
+    double tolerance;            /**< In place of the claim's; 0: the same. */
+    const char *reason;          /**< One line; docs/techniques.md says more. */
 } nook_verify_exception;
 
-/** @return NULL: the technique claims nothing */
-const nook_verify_claim *nook_verify_claim_of(const char *technique);
+/** By its name. @return NULL: there is none; a technique of that name claims nothing */
+const nook_verify_claim *nook_verify_claim_of(const char *name);
+/** The index-th claim of a technique; the first has its name. @return NULL past the last */
+const nook_verify_claim *nook_verify_claim_at(const char *technique, size_t index);
 /** @return NULL: the claim stands */
-const nook_verify_exception *nook_verify_exception_for(const char *technique, const char *fixture, const char *point);
+const nook_verify_exception *nook_verify_exception_for(const char *claim, const char *fixture, const char *point);
 
 /** "Eq. 1", "own: solid angle", "own: half ball". */
 const char *nook_verify_target_name(nook_verify_target target);

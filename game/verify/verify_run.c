@@ -17,13 +17,11 @@ bool nook_verify_wants(const nook_verify_desc *desc, int number, const char *nam
 }
 
 /** One technique that is told the geometry: all pixels have one truth. */
-static nook_result measure(const nook_verify_work *w, const nook_ao_technique *technique,
-                           const nook_verify_scene *scene)
+static nook_result measure(const nook_verify_work *w, const nook_verify_claim *claim, const nook_verify_scene *scene)
 {
-    nook_verify_claim claim = nook_verify_claim_for(technique);
     nook_verify_readings readings;
     nook_verify_row row;
-    nook_result result = nook_verify_begin_row(w, &claim, scene, &readings, &row);
+    nook_result result = nook_verify_begin_row(w, claim, scene, &readings, &row);
     if (result == NOOK_OK)
         result = nook_verify_rig_measure(w->rig, scene, &readings.judged, &readings.of_judged);
     if (result == NOOK_OK)
@@ -31,8 +29,19 @@ static nook_result measure(const nook_verify_work *w, const nook_ao_technique *t
     if (result != NOOK_OK)
         return result;
     row.check.spread = readings.of_judged.occlusion.deviation;
-    row.check.spread_max = nook_verify_spread_max(row.check.tolerance, row.check.expected, claim.samples);
+    row.check.spread_max = nook_verify_spread_max(row.check.tolerance, row.check.expected, claim->samples);
     return nook_verify_end_row(w, &row, &readings);
+}
+
+/** All that the technique claims, and what it does where it claims nothing. */
+static nook_result measure_claims(const nook_verify_work *w, const nook_ao_technique *technique,
+                                  const nook_verify_scene *scene)
+{
+    nook_verify_claim first = nook_verify_claim_for(technique);
+    nook_result result = measure(w, &first, scene);
+    for (size_t i = 1; result == NOOK_OK && nook_verify_claim_at(technique->name, i); i++)
+        result = measure(w, nook_verify_claim_at(technique->name, i), scene);
+    return result;
 }
 
 /** All techniques that read triangles, or all that read volumes. */
@@ -52,7 +61,7 @@ static nook_result measure_told(const nook_verify_work *w, uint32_t point, bool 
             result = nook_verify_rig_set(w->rig, &scene, volumes);
         }
         if (result == NOOK_OK)
-            result = measure(w, technique, &scene);
+            result = measure_claims(w, technique, &scene);
     }
     if (made)
         nook_verify_scene_free(&scene);

@@ -6,7 +6,8 @@
 /** What a technique without a claim is treated as. */
 static nook_verify_claim no_claim(const nook_ao_technique *technique)
 {
-    return (nook_verify_claim){ .technique = technique->name,
+    return (nook_verify_claim){ .name = technique->name,
+                                .technique = technique->name,
                                 .tolerance = INFINITY,
                                 .reads_picture = technique->inputs == 0,
                                 .settings = technique->name,
@@ -37,16 +38,15 @@ nook_result nook_verify_begin_row(const nook_verify_work *work, const nook_verif
                                   const nook_verify_scene *scene, nook_verify_readings *out_readings,
                                   nook_verify_row *out_row)
 {
-    const nook_verify_exception *exception =
-        nook_verify_exception_for(claim->technique, work->fixture->name, scene->point);
+    const nook_verify_exception *exception = nook_verify_exception_for(claim->name, work->fixture->name, scene->point);
     bool plane = work->fixture->row == 1;
     nook_verify_row row = { .number = work->fixture->row,
                             .fixture = work->fixture->name,
                             .what = work->fixture->what,
-                            .technique = claim->technique,
+                            .technique = claim->name,
                             .target = nook_verify_target_name(claim->target),
                             .equation_1 = scene->truth[NOOK_FORM_COSINE] };
-    row.check.claimed = nook_verify_claim_of(claim->technique) && (!claim->horizons || scene->height_field);
+    row.check.claimed = nook_verify_claim_of(claim->name) && (!claim->horizons || scene->height_field);
     row.check.tolerance = plane ? claim->plane : claim->tolerance;
     row.check.expected =
         scene->truth[claim->target == NOOK_VERIFY_SOLID_ANGLE ? NOOK_FORM_SOLID_ANGLE : NOOK_FORM_COSINE];
@@ -65,8 +65,10 @@ nook_result nook_verify_begin_row(const nook_verify_work *work, const nook_verif
     char text[NOOK_SETTING_TEXT_MAX];
     snprintf(row.settings, sizeof row.settings, "%.190s", nook_setting_print(&out_readings->judged, text));
     out_readings->initial = nook_setting_initial(out_readings->judged.technique);
+    if (claim->initial)
+        result = nook_setting_parse("verify", claim->initial, &out_readings->initial);
     *out_row = row;
-    return NOOK_OK;
+    return result;
 }
 
 /** A plane is not dark in one pixel. */

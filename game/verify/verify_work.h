@@ -17,7 +17,7 @@ typedef struct nook_verify_readings {
     nook_verify_reading of_judged, of_initial;
 } nook_verify_readings;
 
-/** The technique's claim, or one of nothing. */
+/** The technique's first claim, or one of nothing. */
 nook_verify_claim nook_verify_claim_for(const nook_ao_technique *technique);
 
 /** Fills in all but what is measured, and the settings. @return as nook_setting_parse */

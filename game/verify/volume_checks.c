@@ -98,14 +98,13 @@ static nook_result add_floor(const volume_run *run, double tilt, double turn, do
     return add(run, &mesh, 48);
 }
 
-static nook_result check_floors(const volume_run *run)
+/** @param settings  of the kind of volume @param bound  the most that a floor may read */
+static nook_result check_floors(const volume_run *run, const char *settings, double bound)
 {
     static const double tilts[] = { 0.0, 0.05, 0.3, 0.615479709, 0.785398163 }, turns[] = { 0.0, 0.785398163, 2.5 };
     const int phases = run->desc->quick ? 2 : 8;
-    const volume_check check = {
-        "C7: open floor", "15 tilts, phases of the grid, worst", "volume rays=64 ao.filter=none", 0.0, 1.0 / 255, 0.4,
-        NOOK_FALLOFF_HARD
-    };
+    const volume_check check = { "C7: open floor", "15 tilts, phases of the grid, worst", settings, 0.0, bound, 0.4,
+                                 NOOK_FALLOFF_HARD };
     double worst = 0.0;
     nook_result result = NOOK_OK;
     for (int k = 0; k < 15; k++) {
@@ -249,7 +248,9 @@ nook_result nook_verify_volume_checks(const nook_verify_desc *desc, nook_verify_
     if (!chosen || !nook_verify_wants(desc, 19, "volume_self"))
         return NOOK_OK;
     nook_fixture_view_drop_occluders(rig->receiver);
-    nook_result result = check_floors(&run);
+    nook_result result = check_floors(&run, "volume rays=64 ao.filter=none", 1.0 / 255);
+    if (result == NOOK_OK)
+        result = check_floors(&run, "volume kind=surfel rays=64 ao.filter=none", 0.0);
     if (result == NOOK_OK)
         result = check_guards(&run);
     if (result == NOOK_OK)

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define EVERY_KIND (AO_KIND_BIT(NOOK_VOLUME_BINARY) | AO_KIND_BIT(NOOK_VOLUME_SURFEL))
+
 static void no_progress(void *user, double fraction)
 {
     (void)user, (void)fraction;
@@ -31,7 +33,7 @@ static nook_result create_buffers(nook_ao *ao, size_t frame_size)
     if (result == NOOK_OK)
         result = nook_buffer_create(ao->gpu, NULL, ao->occluder_max * sizeof(ao_gpu_occluder), &ao->occluder_buffer);
     if (result == NOOK_OK)
-        result = nook_texture_create_buffer(ao->gpu, ao->occluder_buffer, &ao->occluder_texture);
+        result = nook_texture_create_buffer(ao->gpu, GL_RGBA32F, ao->occluder_buffer, &ao->occluder_texture);
     if (result == NOOK_OK)
         result = nook_buffer_create(ao->gpu, NULL, sizeof(ao_counts), &ao->counter);
     return result;
@@ -57,7 +59,9 @@ nook_result nook_ao_create(const nook_ao_desc *desc, nook_ao **out_ao)
     ao->occluder_max = desc->max_occluders ? desc->max_occluders : AO_OCCLUDER_DEFAULT;
     ao->next_mesh_id = 1;
     nook_param_reset(ao_shared_table, NOOK_COUNT(ao_shared_table), &ao->shared);
+    ao->next_volume_id = 1;
     volume_atlas_init(&ao->atlas, ao->gpu);
+    brick_pool_init(&ao->pool, ao->gpu);
     result =
         allocate_lists(ao) ? create_buffers(ao, sizeof(frame_block)) : nook_fail(NOOK_E_MEMORY, "nook_ao: no memory");
     if (result != NOOK_OK) {
@@ -76,6 +80,7 @@ void nook_ao_destroy(nook_ao *ao)
         ao_slot_release(ao, &ao->slots[i]);
     ao_targets_release(ao->gpu, &ao->targets);
     volume_atlas_release(&ao->atlas);
+    brick_pool_release(&ao->pool);
     ao_meshes_release(ao);
     nook_buffer_destroy(ao->gpu, &ao->frame);
     nook_texture_destroy(ao->gpu, &ao->occluder_texture);
@@ -102,26 +107,48 @@ void nook_ao_set_progress(nook_ao *ao, void (*progress)(void *user, double fract
     ao->progress_user = user;
 }
 
+/** Gives the volume to those who keep its kind; it becomes zero. */
+static nook_result keep_volume(nook_ao *ao, uint32_t id, nook_volume *volume)
+{
+    nook_result result = volume->info.kind == NOOK_VOLUME_SURFEL ? brick_pool_add(&ao->pool, id, volume)
+                                                                 : volume_atlas_add(&ao->atlas, id, volume);
+    nook_volume_free(volume);
+    return result;
+}
+
 nook_result nook_ao_add_volume(nook_ao *ao, const char *name, const void *bytes, size_t size,
                                nook_ao_volume *out_volume)
 {
     nook_volume volume;
-    uint32_t id = 0;
     nook_result result = nook_volume_decode(name, bytes, size, &volume);
+    if (result == NOOK_OK)
+        result = keep_volume(ao, ao->next_volume_id, &volume);
+    if (result == NOOK_OK)
+        out_volume->id = ao->next_volume_id++;
+    return result;
+}
+
+nook_result nook_ao_extend_volume(nook_ao *ao, nook_ao_volume volume, const char *name, const void *bytes, size_t size)
+{
+    nook_volume added;
+    if (!ao_volume_info(ao, volume.id, EVERY_KIND))
+        return nook_fail(NOOK_E_NOT_FOUND, "%s: the volume %u has been removed", name, volume.id);
+    nook_result result = nook_volume_decode(name, bytes, size, &added);
     if (result != NOOK_OK)
         return result;
-    result = volume_atlas_add(&ao->atlas, &volume, &id);
-    if (result != NOOK_OK) {
-        nook_volume_free(&volume);
+    if (ao_volume_info(ao, volume.id, AO_KIND_BIT(added.info.kind))) {
+        result = nook_fail(NOOK_E_ARG, "%s: the volume %u is there as %s already", name, volume.id,
+                           nook_volume_kind_name(added.info.kind));
+        nook_volume_free(&added);
         return result;
     }
-    out_volume->id = id;
-    return NOOK_OK;
+    return keep_volume(ao, volume.id, &added);
 }
 
 void nook_ao_remove_volume(nook_ao *ao, nook_ao_volume volume)
 {
     volume_atlas_remove(&ao->atlas, volume.id);
+    brick_pool_remove(&ao->pool, volume.id);
 }
 
 nook_result nook_ao_submit_occluders(nook_ao *ao, const nook_ao_occluder *occluders, uint32_t count)
@@ -131,7 +158,7 @@ nook_result nook_ao_submit_occluders(nook_ao *ao, const nook_ao_occluder *occlud
                          ao->occluder_max);
     for (uint32_t i = 0; i < count; i++) {
         uint32_t volume = occluders[i].volume.id, mesh = occluders[i].mesh.id;
-        if ((volume && !volume_atlas_find(&ao->atlas, volume)) || (mesh && ao_mesh_index(ao, mesh) == UINT32_MAX))
+        if ((volume && !ao_volume_info(ao, volume, EVERY_KIND)) || (mesh && ao_mesh_index(ao, mesh) == UINT32_MAX))
             return nook_fail(NOOK_E_ARG, "occluder %u of %u: its volume %u or mesh %u has been removed", i, count,
                              volume, mesh);
     }

@@ -2,6 +2,7 @@
  * ao_internal.h - the inside of nook_ao, shared by the files of modules/ao only.
  */
 #pragma once
+#include "modules/ao/brick_pool_internal.h"
 #include "modules/ao/nook_ao.h"
 #include "modules/ao/technique.h"
 #include "modules/ao/volume_atlas_internal.h"
@@ -26,13 +27,15 @@ typedef struct ao_mesh {
     uint32_t *indices;
 } ao_mesh;
 
-/** Row of the GPU's occluder list: struct Occluder of shaders/ao/occluders.glsl, std430. */
+/** Row of the GPU's occluder list: struct Occluder of shaders/ao/occluders.glsl. */
 typedef struct ao_gpu_occluder {
     float voxel_from_view[3][4];  /**< Rows: voxel coordinates of the volume, (0, 0, 0) at its outer corner. */
     float normal_from_view[3][4]; /**< Rows of the inverse transpose of the 3x3 part; w unused. */
     float size[4];                /**< Voxels; w: the box's bounding radius in metres. */
-    float atlas[4];               /**< Voxel in the atlas that is the volume's (0, 0, 0); w unused. */
-    float centre[4];              /**< View space, metres; w unused. */
+    /** Binary: voxel in the atlas that is the volume's (0, 0, 0). Surfel: number of its first brick, x + 65536 y; a float alone
+        does not hold all of them. */
+    float place[4];
+    float centre[4]; /**< View space, metres; w unused. */
 } ao_gpu_occluder;
 
 /** Block Counter of shaders/ao/counter.glsl. */
@@ -78,6 +81,8 @@ struct nook_ao {
     nook_buffer frame, occluder_buffer, counter;
     nook_texture occluder_texture; /**< The buffer's rows as texels. */
     volume_atlas atlas;
+    brick_pool pool;
+    uint32_t next_volume_id;
     ao_mesh *meshes;
     uint32_t mesh_count, mesh_capacity, next_mesh_id;
     nook_ao_occluder *occluders; /**< This frame's, as submitted. */
@@ -89,6 +94,8 @@ struct nook_ao {
     nook_ao_statistics statistics;
     ao_region recorded; /**< By the last record. */
     uint32_t scale;     /**< Of the last record: its exponent. */
+    uint32_t kinds;     /**< Of the last record: ao_work. */
+    uint32_t line_max;  /**< Of the last record: nook_ao_pass. */
     int counting;       /**< Of the last record: frame.counting of shaders/ao/counter.glsl. */
 };
 
@@ -110,6 +117,7 @@ enum { AO_BINDING_COUNTER = 7 };
 /** What a record asks of ao_begin. */
 typedef struct ao_work {
     uint32_t inputs; /**< NOOK_AO_IN_*. */
+    uint32_t kinds;  /**< Of volumes: bits 1 << nook_volume_kind; of a volume of several kinds the first of them. */
     uint32_t scale;  /**< Of the trace: its exponent. */
     int32_t passes;  /**< After the trace, that read pixels around: ao_region_make. */
     int counting;    /**< frame.counting of shaders/ao/counter.glsl. */
@@ -138,8 +146,15 @@ ao_region ao_region_make(const nook_ao *ao, const nook_rectangle *part, uint32_t
  */
 void ao_depth_error(nook_gpu *gpu, nook_ao_texture depth, const double clip_from_view[16], double out_error[2]);
 
-/** Composes this frame's marched occluders into ao->gpu_occluders. @return how many */
-uint32_t ao_collect_volumes(nook_ao *ao, const nook_matrix *view_from_world);
+/** A bit for each kind of volume. */
+#define AO_KIND_BIT(kind) (1u << (kind))
+/** By id, of the first of `kinds` that it has. @return NULL when there is none */
+const nook_volume_info *ao_volume_info(const nook_ao *ao, uint32_t id, uint32_t kinds);
+/**
+ * Composes this frame's marched occluders, those that are there in one of `kinds`, into ao->gpu_occluders and
+ * ao->line_max. @return how many
+ */
+uint32_t ao_collect_volumes(nook_ao *ao, const nook_matrix *view_from_world, uint32_t kinds);
 /** Composes this frame's traced instances into ao->instances, ao->instance_occluders and ao->mesh_views. @return how many */
 uint32_t ao_collect_meshes(nook_ao *ao, const nook_matrix *view_from_world);
 /** By id, in the time of a binary search. @return UINT32_MAX when there is none */

@@ -13,7 +13,7 @@ nook_result nook_ao_inspect_volume(nook_ao *ao, nook_ao_volume volume, nook_ao_v
         return result;
     const atlas_entry *entry = volume_atlas_find(&ao->atlas, volume.id);
     if (!entry)
-        return nook_fail(NOOK_E_NOT_FOUND, "volume %u has been removed", volume.id);
+        return nook_fail(NOOK_E_NOT_FOUND, "volume %u has been removed, or has no voxels", volume.id);
     nook_ao_volume_place place = { .atlas = ao->atlas.texture, .voxel_size = entry->info.voxel_size };
     for (int axis = 0; axis < 3; axis++) {
         place.origin[axis] = entry->box.origin[axis];
@@ -39,7 +39,8 @@ static void dispatch_count(nook_ao *ao, const nook_ao_pass *pass, nook_program p
 
 nook_result nook_ao_count_occluders(nook_ao *ao, const nook_ao_frame *frame, nook_ao_texture out_counts)
 {
-    const ao_work work = { .inputs = NOOK_AO_IN_VOLUMES };
+    const ao_work work = { .inputs = NOOK_AO_IN_VOLUMES,
+                           .kinds = AO_KIND_BIT(NOOK_VOLUME_BINARY) | AO_KIND_BIT(NOOK_VOLUME_SURFEL) };
     nook_ao_pass pass;
     nook_program program;
     if (out_counts.native == 0 || out_counts.width != ao->width || out_counts.height != ao->height)
@@ -89,7 +90,8 @@ nook_result nook_ao_snapshot_take(nook_ao *ao, const nook_ao_frame *frame, nook_
     nook_texture_read(ao->gpu, s.pass.normal, GL_RG, GL_UNSIGNED_SHORT, s.normal, 2 * pixels * sizeof *s.normal);
     const nook_texture none = { 0 };
     s.pass.gpu = NULL;
-    s.pass.depth = s.pass.normal = s.pass.visibility = s.pass.volume_atlas = s.pass.occluder_texture = none;
+    s.pass.depth = s.pass.normal = s.pass.visibility = none;
+    s.pass.volume_atlas = s.pass.bricks = s.pass.surfels = s.pass.occluder_texture = none;
     s.pass.frame = s.pass.params = s.pass.counter = s.pass.occluders = (nook_buffer){ 0 };
     s.pass.progress = NULL;
     s.pass.progress_user = NULL;

@@ -17,7 +17,7 @@ typedef struct nook_ao_volume_place {
     double corner[3];   /**< Metres, mesh space: outer corner of its first voxel. */
 } nook_ao_volume_place;
 
-/** @return NOOK_E_NOT_FOUND a volume that has been removed; NOOK_E_MEMORY, NOOK_E_DEVICE; *out_place is untouched then */
+/** @return NOOK_E_NOT_FOUND a volume that has been removed or is not binary; NOOK_E_MEMORY, NOOK_E_DEVICE; *out_place is untouched then */
 nook_result nook_ao_inspect_volume(nook_ao *ao, nook_ao_volume volume, nook_ao_volume_place *out_place);
 
 /**

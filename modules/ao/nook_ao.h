@@ -111,7 +111,13 @@ void nook_ao_set_progress(nook_ao *ao, void (*progress)(void *user, double fract
  */
 nook_result nook_ao_add_volume(nook_ao *ao, const char *name, const void *bytes, size_t size,
                                nook_ao_volume *out_volume);
-void nook_ao_remove_volume(nook_ao *ao, nook_ao_volume volume);
+/**
+ * Gives a volume the same body in one more kind. A technique marches the kind that it reads (`volume.kind`), and leaves out what is
+ * not there in it.
+ * @return as nook_ao_add_volume; NOOK_E_NOT_FOUND it has been removed; NOOK_E_ARG it is there in this kind. It stays as it was then
+ */
+nook_result nook_ao_extend_volume(nook_ao *ao, nook_ao_volume volume, const char *name, const void *bytes, size_t size);
+void nook_ao_remove_volume(nook_ao *ao, nook_ao_volume volume); /**< In all its kinds. */
 
 /**
  * Keeps a copy of a triangle mesh for the reference.
@@ -170,7 +176,7 @@ typedef struct nook_ao_statistics {
         0, or there is a mistake. Needs ao.count = 1, else 0. The reference does not clamp, and is not counted. */
     uint32_t outside;
     uint32_t occluders;    /**< Marched this frame. */
-    uint64_t volume_bytes; /**< On the GPU. */
+    uint64_t volume_bytes; /**< On the GPU, of the kind that was marched. */
     uint64_t
         texture_bytes; /**< Of the last record's textures: depth, normals and visibility at the host's size and the trace's. Those of
                             other scales are kept besides, once used. */

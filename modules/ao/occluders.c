@@ -56,9 +56,8 @@ static int fits_floats(const ao_gpu_occluder *o)
     return fits;
 }
 
-static int compose(const atlas_entry *entry, const nook_matrix *view_from_mesh, ao_gpu_occluder *out)
+static int compose(const nook_volume_info *info, const nook_matrix *view_from_mesh, ao_gpu_occluder *out)
 {
-    const nook_volume_info *info = &entry->info;
     nook_matrix scale = nook_matrix_scale(info->voxel_size, info->voxel_size, info->voxel_size);
     nook_matrix origin = nook_matrix_translation(info->origin[0], info->origin[1], info->origin[2]);
     nook_matrix mesh_from_voxel = nook_matrix_multiply(&origin, &scale);
@@ -68,23 +67,49 @@ static int compose(const atlas_entry *entry, const nook_matrix *view_from_mesh, 
     *out = (ao_gpu_occluder){ .size = { (float)info->width, (float)info->height, (float)info->depth, 0.0f } };
     set_rows(&voxel_from_view, out->voxel_from_view);
     set_normal_rows(&view_from_voxel, out->normal_from_view);
-    for (int axis = 0; axis < 3; axis++)
-        out->atlas[axis] = (float)entry->box.origin[axis];
     set_sphere(&view_from_voxel, info, out);
     return fits_floats(out);
 }
 
-uint32_t ao_collect_volumes(nook_ao *ao, const nook_matrix *view_from_world)
+const nook_volume_info *ao_volume_info(const nook_ao *ao, uint32_t id, uint32_t kinds)
+{
+    const atlas_entry *voxels = kinds & AO_KIND_BIT(NOOK_VOLUME_BINARY) ? volume_atlas_find(&ao->atlas, id) : NULL;
+    if (voxels)
+        return &voxels->info;
+    const pool_entry *bricks = kinds & AO_KIND_BIT(NOOK_VOLUME_SURFEL) ? brick_pool_find(&ao->pool, id) : NULL;
+    return bricks ? &bricks->info : NULL;
+}
+
+/** Where the contents lie on the GPU. */
+static void set_place(const nook_ao *ao, uint32_t id, const nook_volume_info *info, ao_gpu_occluder *out)
+{
+    if (info->kind == NOOK_VOLUME_SURFEL) {
+        uint32_t first = brick_pool_find(&ao->pool, id)->bricks.first;
+        out->place[0] = (float)(first & 0xffffu);
+        out->place[1] = (float)(first >> 16);
+        return;
+    }
+    const atlas_box *box = &volume_atlas_find(&ao->atlas, id)->box;
+    for (int axis = 0; axis < 3; axis++)
+        out->place[axis] = (float)box->origin[axis];
+}
+
+uint32_t ao_collect_volumes(nook_ao *ao, const nook_matrix *view_from_world, uint32_t kinds)
 {
     uint32_t count = 0;
+    ao->line_max = 0;
     for (uint32_t i = 0; i < ao->occluder_count; i++) {
         const nook_ao_occluder *occluder = &ao->occluders[i];
-        const atlas_entry *entry = volume_atlas_find(&ao->atlas, occluder->volume.id);
-        if (!entry)
+        const nook_volume_info *info = ao_volume_info(ao, occluder->volume.id, kinds);
+        if (!info)
             continue;
         nook_matrix world_from_mesh = matrix_of(occluder->world_from_mesh);
         nook_matrix view_from_mesh = nook_matrix_multiply(view_from_world, &world_from_mesh);
-        count += (uint32_t)compose(entry, &view_from_mesh, &ao->gpu_occluders[count]);
+        if (!compose(info, &view_from_mesh, &ao->gpu_occluders[count]))
+            continue;
+        set_place(ao, occluder->volume.id, info, &ao->gpu_occluders[count++]);
+        uint32_t line = info->width + info->height + info->depth;
+        ao->line_max = line > ao->line_max ? line : ao->line_max;
     }
     return count;
 }

@@ -123,6 +123,8 @@ static nook_result upload_inputs(nook_ao *ao, const nook_ao_frame *frame, int co
 {
     static const ao_counts zero = { 0 };
     nook_result result = volume_atlas_flush(&ao->atlas);
+    if (result == NOOK_OK)
+        result = brick_pool_flush(&ao->pool);
     if (result != NOOK_OK)
         return result;
     frame_block block = make_block(ao, frame, counting);
@@ -164,6 +166,9 @@ static nook_ao_pass make_pass(nook_ao *ao, const nook_ao_frame *frame, uint32_t 
         .progress = ao->progress,
         .progress_user = ao->progress_user,
         .volume_atlas = ao->atlas.texture,
+        .bricks = ao->pool.bricks.texture,
+        .surfels = ao->pool.surfels.texture,
+        .line_max = ao->line_max,
         .occluders = ao->occluder_buffer,
         .occluder_texture = ao->occluder_texture,
         .occluder_count = ao->statistics.occluders,
@@ -182,6 +187,8 @@ static void bind_pass(const nook_ao_pass *pass)
     nook_bind_texture(pass->gpu, 1, pass->normal);
     nook_bind_texture(pass->gpu, 2, pass->volume_atlas);
     nook_bind_texture(pass->gpu, 3, pass->occluder_texture);
+    nook_bind_texture(pass->gpu, 5, pass->bricks);
+    nook_bind_texture(pass->gpu, 6, pass->surfels);
     nook_bind_storage(pass->gpu, AO_BINDING_COUNTER, pass->counter);
     nook_bind_image(pass->gpu, 0, pass->visibility, GL_READ_WRITE);
 }
@@ -203,10 +210,12 @@ nook_result ao_begin(nook_ao *ao, const nook_ao_frame *frame, const ao_work *wor
     uint32_t instances = 0;
     ao->scale = work->scale;
     ao->counting = work->counting;
+    ao->kinds = work->kinds;
     ao->recorded = ao_region_make(ao, &frame->part, 1u << work->scale, work->passes);
     nook_matrix view_from_world;
     memcpy(view_from_world.m, frame->view_from_world, sizeof view_from_world.m);
-    ao->statistics.occluders = work->inputs & NOOK_AO_IN_VOLUMES ? ao_collect_volumes(ao, &view_from_world) : 0;
+    ao->statistics.occluders =
+        work->inputs & NOOK_AO_IN_VOLUMES ? ao_collect_volumes(ao, &view_from_world, work->kinds) : 0;
     if (work->inputs & NOOK_AO_IN_MESHES)
         instances = ao_collect_meshes(ao, &view_from_world);
     bind_fetches(ao, frame);
@@ -223,13 +232,16 @@ nook_result ao_begin(nook_ao *ao, const nook_ao_frame *frame, const ao_work *wor
     return NOOK_OK;
 }
 
-static ao_work work_of(const nook_ao *ao, const nook_ao_technique *technique, const nook_ao_frame *frame)
+static ao_work work_of(const nook_ao *ao, const ao_slot *slot, const nook_ao_frame *frame)
 {
+    const nook_ao_technique *technique = slot->technique;
     uint32_t scale = trace_scale(ao, technique);
     int direct = scale == 0 && (technique->exact || ao->shared.filter == 0);
     int stepped = scale > 0 && ao->shared.upscale;
     int counting = ao->shared.count * COUNT_SUMS + (frame->fetches.native != 0) * COUNT_PIXELS;
+    uint32_t kind = technique->volume_kind ? technique->volume_kind(slot->params) : NOOK_VOLUME_BINARY;
     return (ao_work){ .inputs = technique->inputs,
+                      .kinds = AO_KIND_BIT(kind),
                       .scale = scale,
                       .passes = direct ? 0 : 1 + stepped,
                       .counting = technique->exact ? 0 : counting /* truth reads nothing of the kind */ };
@@ -250,7 +262,7 @@ nook_result nook_ao_record(nook_ao *ao, const nook_ao_frame *frame)
     nook_ao_pass pass;
     if (ao->slot_count == 0)
         return nook_fail(NOOK_E_ARG, "nook_ao_record: add a technique first");
-    ao_work work = work_of(ao, slot->technique, frame);
+    ao_work work = work_of(ao, slot, frame);
     nook_result result = ao_begin(ao, frame, &work, &pass);
     if (result != NOOK_OK)
         return result;
@@ -284,7 +296,8 @@ void nook_ao_get_statistics(nook_ao *ao, nook_ao_statistics *out_statistics)
 {
     ao_counts counted;
     *out_statistics = ao->statistics;
-    out_statistics->volume_bytes = volume_atlas_bytes(&ao->atlas);
+    out_statistics->volume_bytes =
+        ao->kinds & AO_KIND_BIT(NOOK_VOLUME_SURFEL) ? brick_pool_bytes(&ao->pool) : volume_atlas_bytes(&ao->atlas);
     out_statistics->texture_bytes = ao_targets_bytes(&ao->targets, ao->scale);
     out_statistics->fetches_per_pixel = 0.0;
     out_statistics->outside = 0;

@@ -14,7 +14,7 @@
 extern "C" {
 #endif
 
-#define NOOK_AO_TECHNIQUE_VERSION 2
+#define NOOK_AO_TECHNIQUE_VERSION 3
 
 /** Triangles for the reference, in mesh space. */
 typedef struct nook_ao_mesh_view {
@@ -63,7 +63,10 @@ typedef struct nook_ao_pass {
     void *progress_user;
 
     /** NOOK_AO_IN_VOLUMES: bound by the host for modules/ao/volumes.h; see shaders/ao/occluders.glsl. */
-    nook_texture volume_atlas;     /**< R8 3D. Binding 2. */
+    nook_texture volume_atlas; /**< R8 3D. Binding 2. */
+    nook_texture bricks;       /**< Texture buffer RGBA32UI, of all surfel volumes: docs/surfel_bricks.md. Binding 5. */
+    nook_texture surfels;      /**< Texture buffer RG32UI. Binding 6. */
+    uint32_t line_max;         /**< More voxels than this no straight line crosses in any of the occluders. */
     nook_texture occluder_texture; /**< RGBA32F of a buffer: the occluders' rows. Binding 3. */
     nook_buffer occluders;         /**< That buffer. */
     uint32_t occluder_count;
@@ -88,7 +91,9 @@ typedef struct nook_ao_technique {
     const char *name;    /**< [a-z0-9_]+; the folder is modules/ao_<name>. */
     const char *summary; /**< One line for the menu. */
     uint32_t inputs;     /**< NOOK_AO_IN_*, beyond depth and normal, which all have. */
-    uint32_t exact;      /**< 1: truth; always at full resolution, never filtered. */
+    /** NOOK_AO_IN_VOLUMES: the kind of volume that it marches with these parameters, a nook_volume_kind. NULL: binary. */
+    uint32_t (*volume_kind)(const void *params);
+    uint32_t exact; /**< 1: truth; always at full resolution, never filtered. */
     const nook_param *params;
     uint32_t param_count;
     uint32_t params_size;   /**< Bytes of the struct made from params.def. */

@@ -1,11 +1,12 @@
 #include "engine/core/log.h"
 #include "modules/ao/volume_atlas_internal.h"
+#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 
 void volume_atlas_init(volume_atlas *atlas, nook_gpu *gpu)
 {
-    *atlas = (volume_atlas){ .gpu = gpu, .next_id = 1 };
+    *atlas = (volume_atlas){ .gpu = gpu };
 }
 
 void volume_atlas_release(volume_atlas *atlas)
@@ -116,22 +117,6 @@ static int grow_for(volume_atlas *atlas, const uint32_t size[3])
     return 1;
 }
 
-nook_result volume_atlas_add(volume_atlas *atlas, nook_volume *volume, uint32_t *out_id)
-{
-    const uint32_t size[3] = { volume->info.width, volume->info.height, volume->info.depth };
-    if (!reserve_one((void **)&atlas->entries, atlas->entry_count, &atlas->entry_capacity, sizeof *atlas->entries))
-        return nook_fail(NOOK_E_MEMORY, "no memory for another volume");
-    atlas_entry entry = { .id = atlas->next_id, .info = volume->info, .pending = volume->voxels };
-    if (!take_free_box(atlas, size, &entry.box) && !(grow_for(atlas, size) && take_free_box(atlas, size, &entry.box)))
-        return nook_fail(NOOK_E_MEMORY, "a volume of %ux%ux%u voxels does not fit any more: bake at a lower resolution",
-                         size[0], size[1], size[2]);
-    atlas->next_id++;
-    atlas->entries[atlas->entry_count++] = entry;
-    *volume = (nook_volume){ 0 };
-    *out_id = entry.id;
-    return NOOK_OK;
-}
-
 /** Free boxes are never joined; but once nothing is left (a level is over), all of it goes, and its memory with it. */
 static void release_when_empty(volume_atlas *atlas)
 {
@@ -142,8 +127,8 @@ static void release_when_empty(volume_atlas *atlas)
     nook_texture_destroy(atlas->gpu, &atlas->texture);
 }
 
-/** Entries stand in the order of their ids: they are added at the end, and removal keeps the order. */
-static uint32_t entry_index(const volume_atlas *atlas, uint32_t id)
+/** The place of an id, or where it belongs. */
+static uint32_t entry_place(const volume_atlas *atlas, uint32_t id)
 {
     uint32_t first = 0, end = atlas->entry_count;
     while (first < end) {
@@ -153,7 +138,31 @@ static uint32_t entry_index(const volume_atlas *atlas, uint32_t id)
         else
             end = middle;
     }
+    return first;
+}
+
+static uint32_t entry_index(const volume_atlas *atlas, uint32_t id)
+{
+    uint32_t first = entry_place(atlas, id);
     return first < atlas->entry_count && atlas->entries[first].id == id ? first : UINT32_MAX;
+}
+
+nook_result volume_atlas_add(volume_atlas *atlas, uint32_t id, nook_volume *volume)
+{
+    const uint32_t size[3] = { volume->info.width, volume->info.height, volume->info.depth };
+    uint32_t place = entry_place(atlas, id);
+    assert(place == atlas->entry_count || atlas->entries[place].id != id);
+    if (!reserve_one((void **)&atlas->entries, atlas->entry_count, &atlas->entry_capacity, sizeof *atlas->entries))
+        return nook_fail(NOOK_E_MEMORY, "no memory for another volume");
+    atlas_entry entry = { .id = id, .info = volume->info, .pending = volume->voxels };
+    if (!take_free_box(atlas, size, &entry.box) && !(grow_for(atlas, size) && take_free_box(atlas, size, &entry.box)))
+        return nook_fail(NOOK_E_MEMORY, "a volume of %ux%ux%u voxels does not fit any more: bake at a lower resolution",
+                         size[0], size[1], size[2]);
+    memmove(atlas->entries + place + 1, atlas->entries + place,
+            (atlas->entry_count++ - place) * sizeof *atlas->entries);
+    atlas->entries[place] = entry;
+    *volume = (nook_volume){ 0 };
+    return NOOK_OK;
 }
 
 void volume_atlas_remove(volume_atlas *atlas, uint32_t id)

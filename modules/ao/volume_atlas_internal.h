@@ -13,7 +13,7 @@ typedef struct atlas_box {
 } atlas_box;
 
 typedef struct atlas_entry {
-    uint32_t id; /**< Never reused; 0: free slot. */
+    uint32_t id; /**< The volume's. */
     nook_volume_info info;
     atlas_box box;
     uint8_t *pending; /**< Voxels that are not on the GPU yet; NULL once they are. Owned. */
@@ -23,19 +23,21 @@ typedef struct volume_atlas {
     nook_gpu *gpu;
     nook_texture texture; /**< id 0 before the first flush. */
     uint32_t size[3];     /**< That the boxes need; the texture follows at the next flush. */
-    atlas_entry *entries;
+    atlas_entry *entries; /**< In the order of their ids. */
     uint32_t entry_count, entry_capacity;
     atlas_box *free_boxes;
     uint32_t free_count, free_capacity;
-    uint32_t next_id;
 } volume_atlas;
 
 void volume_atlas_init(volume_atlas *atlas, nook_gpu *gpu);
 void volume_atlas_release(volume_atlas *atlas);
 
-/** Takes the voxels of `volume` on success (it becomes zero). @return NOOK_E_MEMORY: larger than the device can hold */
-nook_result volume_atlas_add(volume_atlas *atlas, nook_volume *volume, uint32_t *out_id);
-void volume_atlas_remove(volume_atlas *atlas, uint32_t id);
+/**
+ * Takes the voxels of `volume` on success (it becomes zero).
+ * @param id  not in the atlas @return NOOK_E_MEMORY: larger than the device can hold
+ */
+nook_result volume_atlas_add(volume_atlas *atlas, uint32_t id, nook_volume *volume);
+void volume_atlas_remove(volume_atlas *atlas, uint32_t id); /**< An id that is not there is allowed. */
 /** @return NULL for a stale id */
 const atlas_entry *volume_atlas_find(const volume_atlas *atlas, uint32_t id);
 /** Brings the texture up to date. @return NOOK_E_MEMORY, NOOK_E_DEVICE */

@@ -1,19 +1,26 @@
 #include "modules/ao_volume/volume.h"
 #include "modules/ao/direction_texture.h"
 #include "modules/ao_volume/cut_internal.h"
+#include "modules/bake/volume_file.h"
 
 #define NOOK_PARAM_STRUCT volume_params
 #define NOOK_PARAM_FILE "modules/ao_volume/params.def"
 #include "engine/core/param_block.inl"
 
-enum { COMBINE_MULTIPLY = 0 };
+enum { COMBINE_MULTIPLY = 0, KIND_SURFEL = 1 };
 enum { TILE_SIZE = 8, BINDING_DIRECTIONS = 4, BINDING_AGAIN = 5, BINDING_VISIBILITY = 0, BINDING_KEPT = 1 };
 enum { LOCATION_PART = 0, LOCATION_OCCLUDERS = 1 };
+
+/**
+ * Loop turns of a ray in a surfel volume. At most: the inner loop's as many as a line crosses voxels, the outer one's no more, and what
+ * sorting a list takes for it. Usually: counted in rooms and around single objects, where the longest took 77.
+ */
+enum { TURNS_PER_VOXEL = 2, TURNS_OF_SORTING = 5, TURNS_USUALLY = 128 };
 
 typedef struct volume_state {
     nook_direction_texture directions;
     nook_buffer again; /**< Groups x, y, z of dispatches that do the work again: x is 0 until loops were ended. */
-    nook_texture kept; /**< R32F of the trace's size; id 0 until a cut needs it. */
+    nook_texture kept; /**< Of the trace's size, R32F or, of surfels, RGBA32F; id 0 until a cut needs it. */
 } volume_state;
 
 static nook_result create(void *state, nook_gpu *gpu)
@@ -59,12 +66,11 @@ static void dispatch_parts(const nook_ao_pass *pass, const volume_work *work, co
 }
 
 /** Fits and binds the image for what waits from one dispatch to the next. */
-static nook_result bind_kept(volume_state *s, const nook_ao_pass *pass)
+static nook_result bind_kept(volume_state *s, const nook_ao_pass *pass, uint32_t format)
 {
-    if (s->kept.id == 0 || s->kept.width != pass->width || s->kept.height != pass->height) {
+    if (s->kept.id == 0 || s->kept.format != format || s->kept.width != pass->width || s->kept.height != pass->height) {
         nook_texture_destroy(pass->gpu, &s->kept);
-        nook_result result =
-            nook_texture_create_2d(pass->gpu, GL_R32F, pass->width, pass->height, GL_NEAREST, &s->kept);
+        nook_result result = nook_texture_create_2d(pass->gpu, format, pass->width, pass->height, GL_NEAREST, &s->kept);
         if (result != NOOK_OK)
             return result;
     }
@@ -72,18 +78,26 @@ static nook_result bind_kept(volume_state *s, const nook_ao_pass *pass)
     return NOOK_OK;
 }
 
+/** A shader, and how much there is to do for it. */
+typedef struct volume_task {
+    nook_program program;
+    volume_work usual, most; /**< As a rule, and at the most. */
+    uint32_t kept_format;
+} volume_task;
+
 /**
  * The likely cut first. When it was not sure and the shader found that its loops were ended, everything is done again, carefully; else
  * those dispatches have no groups. The GPU knows which: nobody waits for it.
  */
-static nook_result trace(volume_state *s, const nook_ao_pass *pass, const volume_work *work, nook_program program)
+static nook_result trace(volume_state *s, const nook_ao_pass *pass, const volume_task *task)
 {
     uint32_t all[2];
     nook_ao_pass_groups(pass, TILE_SIZE, TILE_SIZE, all);
     const GLuint nothing[3] = { 0, all[1], 1 };
-    volume_cut likely = volume_cut_likely(work), careful = volume_cut_careful(work);
-    if (volume_cut_needs_image(work, &likely) || volume_cut_needs_image(work, &careful)) {
-        nook_result result = bind_kept(s, pass);
+    volume_cut likely = volume_cut_likely(&task->usual), careful = volume_cut_careful(&task->most);
+    likely.sure = likely.sure && task->usual.steps == task->most.steps;
+    if (volume_cut_needs_image(&task->usual, &likely) || volume_cut_needs_image(&task->most, &careful)) {
+        nook_result result = bind_kept(s, pass, task->kept_format);
         if (result != NOOK_OK)
             return result;
     }
@@ -91,11 +105,11 @@ static nook_result trace(volume_state *s, const nook_ao_pass *pass, const volume
     nook_bind_storage(pass->gpu, BINDING_AGAIN, s->again);
     nook_bind_texture(pass->gpu, BINDING_DIRECTIONS, s->directions.texture);
     nook_bind_image(pass->gpu, BINDING_VISIBILITY, pass->visibility, GL_READ_WRITE);
-    nook_program_use(pass->gpu, program);
-    nook_uniform_int(pass->gpu, LOCATION_OCCLUDERS, &(const int32_t){ (int32_t)work->occluders }, 1);
-    dispatch_parts(pass, work, &likely, program, NULL);
+    nook_program_use(pass->gpu, task->program);
+    nook_uniform_int(pass->gpu, LOCATION_OCCLUDERS, &(const int32_t){ (int32_t)pass->occluder_count }, 1);
+    dispatch_parts(pass, &task->usual, &likely, task->program, NULL);
     if (!likely.sure)
-        dispatch_parts(pass, work, &careful, program, &s->again);
+        dispatch_parts(pass, &task->most, &careful, task->program, &s->again);
     return NOOK_OK;
 }
 
@@ -107,21 +121,41 @@ static void leave_open(const nook_ao_pass *pass)
                                     1, GL_RGBA, GL_FLOAT, open);
 }
 
+static uint32_t volume_kind(const void *params)
+{
+    const volume_params *p = params;
+    return p->kind == KIND_SURFEL ? NOOK_VOLUME_SURFEL : NOOK_VOLUME_BINARY;
+}
+
+static volume_task make_task(const volume_params *p, const nook_ao_pass *pass)
+{
+    const volume_work work = { (uint32_t)p->rays, (uint32_t)p->steps, pass->occluder_count,
+                               p->combine == COMBINE_MULTIPLY };
+    volume_task task = { .usual = work, .most = work, .kept_format = GL_R32F };
+    if (p->kind == KIND_SURFEL) {
+        task.most.steps = TURNS_PER_VOXEL * pass->line_max + TURNS_OF_SORTING;
+        task.usual.steps = at_most(TURNS_USUALLY, task.most.steps);
+        task.kept_format = GL_RGBA32F;
+    }
+    return task;
+}
+
 static nook_result record(void *state, const void *params, const nook_ao_pass *pass)
 {
     volume_state *s = state;
     const volume_params *p = params;
-    if (pass->occluder_count == 0 || pass->volume_atlas.id == 0) {
+    int surfels = p->kind == KIND_SURFEL;
+    if (pass->occluder_count == 0) {
         leave_open(pass);
         return NOOK_OK;
     }
-    const volume_work work = { (uint32_t)p->rays, (uint32_t)p->steps, pass->occluder_count,
-                               p->combine == COMBINE_MULTIPLY };
-    nook_program program;
-    nook_result result = nook_direction_texture_fit(&s->directions, pass->gpu, work.rays, pass->seed);
+    volume_task task = make_task(p, pass);
+    nook_result result = nook_direction_texture_fit(&s->directions, pass->gpu, task.most.rays, pass->seed);
     if (result == NOOK_OK)
-        result = nook_program_compute(pass->gpu, "shaders/ao/volume.comp.glsl", nook_ao_pass_defines(pass), &program);
-    return result == NOOK_OK ? trace(s, pass, &work, program) : result;
+        result =
+            nook_program_compute(pass->gpu, surfels ? "shaders/ao/surfel.comp.glsl" : "shaders/ao/volume.comp.glsl",
+                                 nook_ao_pass_defines(pass), &task.program);
+    return result == NOOK_OK ? trace(s, pass, &task) : result;
 }
 
 const nook_ao_technique nook_ao_volume_technique = {
@@ -129,6 +163,7 @@ const nook_ao_technique nook_ao_volume_technique = {
     .name = "volume",
     .summary = "Rays marched through precomputed voxel volumes; sees what the camera does not",
     .inputs = NOOK_AO_IN_VOLUMES,
+    .volume_kind = volume_kind,
     .params = param_table,
     .param_count = NOOK_COUNT(param_table),
     .params_size = sizeof(volume_params),

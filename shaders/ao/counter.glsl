@@ -28,6 +28,13 @@ vec4 fetch_filtered(sampler3D from, vec3 at)
     return textureLod(from, at, 0.0);
 }
 
+// A record of a texture buffer.
+uvec4 fetch_record(usamplerBuffer from, int index)
+{
+    fetches++;
+    return texelFetch(from, index);
+}
+
 const float ROUNDING = 1e-5; // of a sum of thousands of terms
 uint outside = 0u;
 

@@ -52,3 +52,23 @@ void tile_list(int first, int end)
     }
     barrier();
 }
+
+// Puts the list in the order of the occluders, for those to whom it matters: invocations list them as they come. Uniform control flow.
+void tile_sort()
+{
+    int item[CHUNK / (TILE_SIZE * TILE_SIZE)];
+    int place[CHUNK / (TILE_SIZE * TILE_SIZE)];
+    for (int k = 0; k < CHUNK / (TILE_SIZE * TILE_SIZE); k++) {
+        uint i = gl_LocalInvocationIndex + uint(k * TILE_SIZE * TILE_SIZE);
+        item[k] = i < tile_count ? tile_items[i] : -1;
+        place[k] = 0;
+        for (uint other = 0u; item[k] >= 0 && other < tile_count; other++)
+            place[k] += int(tile_items[other] < item[k]);
+    }
+    barrier();
+    for (int k = 0; k < CHUNK / (TILE_SIZE * TILE_SIZE); k++) {
+        if (item[k] >= 0)
+            tile_items[place[k]] = item[k];
+    }
+    barrier();
+}

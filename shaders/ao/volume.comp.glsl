@@ -1,32 +1,11 @@
-// Technique "volume": Papaioannou, Menexi, Papadopoulos 2010, section 5.1, errata C2, C5, C7, C8, C9 of docs/techniques.md.
-#include "ao/frame.glsl"
-#include "ao/falloff.glsl"
-#include "ao/counter.glsl"
-#include "ao/directions.glsl"
-#include "ao/tile_list.glsl"
-#include "nook/octahedral.glsl"
-#include "nook/params.glsl"
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(std140, binding = 1) uniform Params {
-#include "modules/ao_volume/params.def"
-} params;
-layout(binding = 0) uniform sampler2D depth_texture;
-layout(binding = 1) uniform sampler2D normal_texture;
-layout(binding = 0, r32f) uniform image2D visibility_image;
+// Technique "volume", binary volumes: Papaioannou, Menexi, Papadopoulos 2010, section 5.1, errata C2, C5, C7, C8, C9 of
+// docs/techniques.md.
+#include "ao/volume_pass.glsl"
 // What waits for the next dispatch: union, a ray's nearest hit so far; multiply, the sum over an occluder's rays so far.
 layout(binding = 1, r32f) uniform image2D kept_image;
-// Groups of the dispatches that do everything again, carefully: x stays 0 unless loops were ended.
-layout(std430, binding = 5) buffer Again {
-    uint groups_x, groups_y, groups_z;
-} again;
-// Rays x to y - 1 of occluders z to w - 1: this dispatch's part of the work, see modules/ao_volume/cut_internal.h.
-layout(location = 0) uniform ivec4 part;
-layout(location = 1) uniform int occluder_count; // of all parts
 
 const int STEPPING_FIXED = 0;
-const int COMBINE_MULTIPLY = 0;
 const int GUARD_SLAB = 0;
-const int BATCH = 8;                  // rays whose nearest hits are held in registers
 const float FILTER_PRECISION = 0.015; // voxels: hardware interpolates with 8-bit weights, three axes of 1/256 and a little
 const float NO_HIT = 1e30;
 
@@ -105,7 +84,7 @@ float march(Occluder o, Receiver r, vec3 d, float cosine, float limit, float jit
     for (int i = 0; i < int(count) && t < last; i++, t += dr) {
         vec3 voxel = t < path.leave ? path.lifted + path.across * t : path.origin + path.along * t;
         voxel = clamp(voxel, vec3(MARGIN), o.size.xyz - MARGIN);
-        if (fetch_filtered(volume_atlas, (o.atlas.xyz + voxel) * texel).r >= params.threshold)
+        if (fetch_filtered(volume_atlas, (o.place.xyz + voxel) * texel).r >= params.threshold)
             return max(t + correction, 0.0);
     }
     return NO_HIT;
@@ -150,69 +129,9 @@ float sum_union(float sum, bool inside, vec3 position, vec3 normal, ivec2 pixel)
     return sum;
 }
 
-// The paper's: product of the volumes' visibilities; darkens where volumes overlap, lights where they do not (C5). `visibility` is
-// that of earlier parts. A part that does not hold all rays holds one occluder only; the last of such parts has its factor.
-float multiply_visibilities(float visibility, bool inside, vec3 position, vec3 normal, ivec2 pixel)
+float occlusion_along(Occluder o, Receiver r, vec3 d, float cosine, float jitter)
 {
-    vec3 tangent, bitangent;
-    tangent_frame(normal, tangent, bitangent);
-    int block = block_of(pixel);
-    float shift = noise(pixel, 1u);
-    for (int chunk = part.z; chunk < part.w; chunk += CHUNK) {
-        tile_list(chunk, part.w);
-        for (uint i = 0u; inside && i < tile_count; i++) {
-            Occluder o = occluder_at(tile_items[i]);
-            Receiver r = receive(o, position, normal);
-            if (!r.can_see)
-                continue;
-            float sum = part.x == 0 ? 0.0 : imageLoad(kept_image, pixel).r;
-            for (int j = part.x; j < part.y; j++) {
-                vec3 d = direction(j, block, tangent, bitangent, normal);
-                float jitter = fract(shift + float(j) * 0.61803399);
-                sum += falloff(march(o, r, d, dot(d, normal), frame.r_max, jitter));
-            }
-            if (part.y < params.rays)
-                imageStore(kept_image, pixel, vec4(sum));
-            else
-                visibility *= 1.0 - sum / float(params.rays);
-        }
-    }
-    return visibility;
+    return falloff(march(o, r, d, cosine, frame.r_max, jitter));
 }
 
-// Has llvmpipe ended this invocation's loops? It lets each go on for one turn then; here is one that wants two, in a number that
-// compilers do not know, or they would unroll it.
-bool loops_were_ended()
-{
-    int wanted = occluder_count > 0 ? 2 : 1, turns = 0;
-    while (turns < wanted)
-        turns++;
-    return turns < wanted;
-}
-
-void main()
-{
-    ivec2 pixel = invocation_pixel();
-    bool on_image = is_wanted(pixel), multiply = params.combine == COMBINE_MULTIPLY;
-    float depth = on_image ? fetch(depth_texture, pixel).r : 0.0;
-    // Between parts the image holds the product so far, or the sum of rho so far.
-    bool is_first = part.x == 0 && part.z == 0, is_last = part.y == params.rays && part.w == occluder_count;
-    float result = is_first || !on_image ? (multiply ? 1.0 : 0.0) : imageLoad(visibility_image, pixel).r;
-    if (tile_begin(depth)) {
-        vec3 position = view_position(pixel, depth);
-        vec3 normal = on_image ? nook_octahedral_decode(fetch(normal_texture, pixel).xy) : vec3(0.0, 0.0, 1.0);
-        if (multiply)
-            result = multiply_visibilities(result, depth > 0.0, position, normal, pixel);
-        else
-            result = sum_union(result, depth > 0.0, position, normal, pixel);
-        if (loops_were_ended())
-            again.groups_x = gl_NumWorkGroups.x;
-    }
-    if (is_last && !multiply)
-        result = 1.0 - result / float(params.rays);
-    if (is_last)
-        result = depth > 0.0 ? bounded(result) : 1.0;
-    if (on_image)
-        imageStore(visibility_image, pixel, vec4(result));
-    add_counts();
-}
+#include "ao/volume_main.glsl"

@@ -35,9 +35,13 @@ static nook_volume make_volume(const uint32_t size[3], uint32_t seed)
 
 static void add(volume_atlas *atlas, held *item, uint32_t width, uint32_t height, uint32_t depth, uint32_t seed)
 {
-    *item = (held){ .size = { width, height, depth }, .seed = seed };
+    /* Any id that is not there: also one between those of others. */
+    uint32_t id = 1 + seed * 7919 % 60013;
+    while (volume_atlas_find(atlas, id))
+        id++;
+    *item = (held){ .id = id, .size = { width, height, depth }, .seed = seed };
     nook_volume volume = make_volume(item->size, seed);
-    assert_int_equal(volume_atlas_add(atlas, &volume, &item->id), NOOK_OK);
+    assert_int_equal(volume_atlas_add(atlas, id, &volume), NOOK_OK);
     assert_null(volume.voxels); /* taken */
 }
 
@@ -178,12 +182,12 @@ static void test_atlas_refuses_what_the_device_cannot_hold(void **state)
     small.max_texture_3d_size = 32;
     volume_atlas atlas;
     held items[9];
-    uint32_t id = 4711, count = 0;
+    uint32_t count = 0;
     nook_log_capture line;
     volume_atlas_init(&atlas, &small);
     nook_volume wide = make_volume((const uint32_t[]){ 33, 2, 2 }, 0);
     nook_log_capture_begin(&line);
-    nook_result result = volume_atlas_add(&atlas, &wide, &id);
+    nook_result result = volume_atlas_add(&atlas, 1, &wide);
     nook_log_capture_end();
     assert_int_equal(result, NOOK_E_MEMORY);
     assert_non_null(strstr(line.text, "33x2x2"));
@@ -194,11 +198,11 @@ static void test_atlas_refuses_what_the_device_cannot_hold(void **state)
         add(&atlas, &items[count], 16, 16, 16, count);
     nook_volume ninth = make_volume((const uint32_t[]){ 16, 16, 16 }, 9);
     nook_log_capture_begin(&line);
-    result = volume_atlas_add(&atlas, &ninth, &id);
+    result = volume_atlas_add(&atlas, 70000, &ninth);
     nook_log_capture_end();
     assert_int_equal(result, NOOK_E_MEMORY);
     assert_int_equal(line.count, 1);
-    assert_int_equal(id, 4711);
+    assert_null(volume_atlas_find(&atlas, 70000));
     nook_volume_free(&ninth);
     check_boxes(&atlas);
     check_voxels(&atlas, items, 8);

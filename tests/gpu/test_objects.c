@@ -207,7 +207,7 @@ static void test_texture_of_a_buffer_shows_what_the_buffer_holds_now(void **stat
     nook_texture texture;
     assert_int_equal(nook_buffer_create(gpu, NULL, sizeof numbers, &buffer), NOOK_OK);
     assert_int_equal(nook_buffer_create(gpu, NULL, sizeof values, &out), NOOK_OK);
-    assert_int_equal(nook_texture_create_buffer(gpu, buffer, &texture), NOOK_OK);
+    assert_int_equal(nook_texture_create_buffer(gpu, GL_RGBA32F, buffer, &texture), NOOK_OK);
     assert_int_equal(texture.width, COUNT);
     for (int turn = 0; turn < 2; turn++) {
         for (int i = 0; i < COUNT * 4; i++)
@@ -235,7 +235,7 @@ static void test_texture_of_a_buffer_refuses_more_texels_than_the_device_takes(v
     assert_int_equal(nook_buffer_create(gpu, NULL, 16, &buffer), NOOK_OK);
     const nook_buffer larger = { buffer.id, ((size_t)most + 1) * 16 }; /* it is refused before it is looked at */
     nook_log_set_sink(ignore_log, &lines);
-    assert_int_equal(nook_texture_create_buffer(gpu, larger, &texture), NOOK_E_RANGE);
+    assert_int_equal(nook_texture_create_buffer(gpu, GL_RGBA32F, larger, &texture), NOOK_E_RANGE);
     nook_log_set_sink(NULL, NULL);
     assert_int_equal(lines, 1);
     assert_int_equal(texture.id, 7);

@@ -1,0 +1,181 @@
+#pragma once
+// Surfel bricks: what they hold, and a ray's way through them. docs/surfel_bricks.md. All lengths are in voxels, so that no number
+// depends on the scene's scale.
+#include "ao/counter.glsl"
+#include "ao/falloff.glsl"
+layout(binding = 5) uniform usamplerBuffer bricks;  // mask low, mask high, first surfel, distance to the next occupied brick
+layout(binding = 6) uniform usamplerBuffer surfels; // two planes; the second may be 0
+
+const int BRICK = 4;
+const float OFFSET_STEP = 0.87 / 127.0; // modules/bake/surfel_word.h
+const float ALPHA_STEP = 1.0 / 63.0;
+const uint SIDE_ABOVE = 1u;
+// Voxels by which a plane reaches past the other one that it ends at: what rounding to bytes may leave open between the two.
+const float SIDE_SLACK = 0.04;
+const float FACES_ALIKE = 0.6; // cosine from which a plane may be the receiver's own: the normals of a voxel's two planes differ
+const float OPAQUE = 0.02;     // transmittance below which a ray ends, and its last hit takes what is left
+const float PARALLEL = 1e-6;   // cosine
+
+// A ray from a fragment, as one volume sees it.
+struct Ray {
+    vec3 origin; // lifted off the surface
+    vec3 point;  // on it
+    vec3 normal; // unit
+    vec3 along;  // unit
+    float metre; // voxels along it
+    float reach; // how far it goes
+};
+
+// What a ray has met: occlusion so far, what still gets through, and where nothing does any more (metres).
+struct Passage {
+    float occlusion, transmittance, end;
+    float last, covered; // the last plane that was met: where (voxels), and its alpha
+};
+
+Passage free_passage()
+{
+    return Passage(0.0, 1.0, 1e30, -1e30, 0.0);
+}
+
+// xyz: unit normal; w: offset from the voxel's middle.
+vec4 plane_of(uint word)
+{
+    float x = float(int(word << 24) >> 24) / 127.0, y = float(int(word << 16) >> 24) / 127.0;
+    float z = 1.0 - abs(x) - abs(y), fold = max(-z, 0.0);
+    vec3 normal = normalize(vec3(x + (x >= 0.0 ? -fold : fold), y + (y >= 0.0 ? -fold : fold), z));
+    return vec4(normal, float(int(word << 8) >> 24) * OFFSET_STEP);
+}
+
+float alpha_of(uint word)
+{
+    return float((word >> 24) & 63u) * ALPHA_STEP;
+}
+
+// The surface that the fragment itself lies on never occludes it: a plane that faces like it, of which it is not far, and which the
+// ray leaves behind.
+bool is_own(vec4 plane, vec3 point, vec3 normal, float slope)
+{
+    float facing = dot(plane.xyz, normal), height = dot(plane.xyz, point) - plane.w;
+    return abs(facing) > FACES_ALIKE && abs(height) < params.own_distance && (facing < 0.0 ? -slope : slope) > 0.0;
+}
+
+// Where the ray meets a plane of a voxel that it crosses from `enter` to `leave`, or -1. origin, point: from the voxel's middle.
+float hit_plane(uint word, vec4 plane, vec4 other, Ray ray, vec3 origin, vec3 point, float enter, float leave)
+{
+    float slope = dot(plane.xyz, ray.along), h = (plane.w - dot(plane.xyz, origin)) / slope;
+    bool hit = abs(slope) > PARALLEL && h > 0.0 && h < ray.reach && h >= enter - params.tolerance &&
+               h <= leave + params.tolerance;
+    uint side = word >> 30;
+    if (side != 0u) {
+        float beyond = dot(other.xyz, origin + ray.along * h) - other.w;
+        hit = hit && (side == SIDE_ABOVE ? beyond : -beyond) >= -SIDE_SLACK;
+    }
+    return hit && !is_own(plane, point, ray.normal, slope) ? h : -1.0;
+}
+
+// A plane takes its share. Where planes reach out of their voxels the same surface is met twice: it counts once, with the larger alpha.
+void pass_through(float h, float alpha, Ray ray, inout Passage passage)
+{
+    if (h < 0.0 || passage.transmittance == 0.0)
+        return;
+    float covered = abs(h - passage.last) < params.tolerance ? passage.covered : 0.0;
+    float through = (1.0 - max(alpha, covered)) / (1.0 - covered);
+    passage.last = h;
+    passage.covered = max(alpha, covered);
+    float left = passage.transmittance * through, taken = passage.transmittance - left;
+    if (left < OPAQUE) {
+        taken = passage.transmittance;
+        left = 0.0;
+        passage.end = h / ray.metre;
+    }
+    passage.occlusion += taken * falloff(h / ray.metre);
+    passage.transmittance = left;
+}
+
+// The planes of one voxel take their shares, the nearer one first.
+void meet_surfel(uint index, vec3 middle, Ray ray, float enter, float leave, inout Passage passage)
+{
+    uvec2 words = fetch_record(surfels, int(index)).xy;
+    vec3 origin = ray.origin - middle, point = ray.point - middle;
+    vec4 first = plane_of(words.x), second = words.y == 0u ? first : plane_of(words.y);
+    float a = hit_plane(words.x, first, second, ray, origin, point, enter, leave), b = -1.0;
+    if (words.y != 0u)
+        b = hit_plane(words.y, second, first, ray, origin, point, enter, leave);
+    float alpha_a = alpha_of(words.x), alpha_b = alpha_of(words.y);
+    bool swapped = b >= 0.0 && b < a;
+    pass_through(swapped ? b : a, swapped ? alpha_b : alpha_a, ray, passage);
+    pass_through(swapped ? a : b, swapped ? alpha_a : alpha_b, ray, passage);
+}
+
+float least(vec3 v)
+{
+    return min(v.x, min(v.y, v.z));
+}
+
+// Bit of a voxel in its brick's mask: Morton order, so that a byte of it is a block of 2 x 2 x 2.
+uint bit_of(ivec3 v)
+{
+    return uint((v.x & 1) | (v.y & 1) << 1 | (v.z & 1) << 2 | (v.x & 2) << 2 | (v.y & 2) << 3 | (v.z & 2) << 4);
+}
+
+uint surfel_of(uvec4 brick, uint bit)
+{
+    uint below = (1u << (bit & 31u)) - 1u;
+    uint before = bit < 32u ? uint(bitCount(brick.x & below)) : uint(bitCount(brick.x)) + uint(bitCount(brick.y & below));
+    return brick.z + before;
+}
+
+// Walks a volume of `size` bricks, the first of which is number `base` of all: the outer loop meets one surfel a round, the inner one
+// only walks, so that neighbours that walk together also meet together. From voxel to voxel by integers: the axis on which a region is
+// left is stepped exactly, the others are clamped into the region, so that no rounding ever turns a ray back. A straight line
+// crosses no more voxels than size.x + size.y + size.z bricks have along their sides: no loop is longer than that.
+Passage walk(Ray ray, ivec3 size, int base)
+{
+    Passage passage = free_passage();
+    vec3 inverse = 1.0 / mix(ray.along, vec3(1e-9), lessThan(abs(ray.along), vec3(1e-9)));
+    vec3 forward = step(0.0, ray.along), side = vec3(size * BRICK);
+    vec3 a = -ray.origin * inverse, b = (side - ray.origin) * inverse, near = min(a, b);
+    float t = max(max(near.x, near.y), max(near.z, 0.0)), end = min(least(max(a, b)), ray.reach);
+    ivec3 voxel = clamp(ivec3(floor(ray.origin + ray.along * t)), ivec3(0), size * BRICK - 1);
+    int most = (size.x + size.y + size.z) * BRICK, turns = 0;
+    for (int meetings = 0; meetings < most; meetings++) {
+        bool found = false;
+        uint surfel = 0u;
+        vec3 middle = vec3(0.0);
+        float enter = t;
+        for (; turns < most && t < end; turns++) {
+            ivec3 at = voxel >> 2;
+            uvec4 brick = fetch_record(bricks, base + (at.z * size.y + at.y) * size.x + at.x);
+            uint bit = bit_of(voxel), word = bit < 32u ? brick.x : brick.y;
+            vec3 corner = vec3(voxel); // of the region to cross: this voxel, an empty block of 2, or an empty cube of bricks
+            float extent = 1.0;
+            if ((brick.x | brick.y) == 0u) {
+                int skip = int(brick.w);
+                corner = vec3((at - (skip - 1)) * BRICK);
+                extent = float((2 * skip - 1) * BRICK);
+            } else if (((word >> (bit & 24u)) & 255u) == 0u) {
+                corner = vec3(voxel & ~1);
+                extent = 2.0;
+            }
+            vec3 edge = corner + forward * extent, exits = (edge - ray.origin) * inverse;
+            float leave = least(exits);
+            found = ((word >> (bit & 31u)) & 1u) != 0u;
+            if (found) {
+                surfel = surfel_of(brick, bit);
+                middle = vec3(voxel) + 0.5;
+            }
+            vec3 next = clamp(floor(ray.origin + ray.along * leave), corner, corner + (extent - 1.0));
+            voxel = ivec3(mix(next, edge + (forward - 1.0), lessThanEqual(exits, vec3(leave))));
+            enter = t;
+            t = any(greaterThanEqual(uvec3(voxel), uvec3(side))) ? 1e30 : leave;
+            if (found)
+                break;
+        }
+        if (!found)
+            break;
+        meet_surfel(surfel, middle, ray, enter, min(t, end), passage);
+        if (passage.transmittance == 0.0)
+            break;
+    }
+    return passage;
+}
