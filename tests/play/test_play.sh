@@ -106,6 +106,13 @@ test_headless_captures_pictures_without_a_display_and_ends_in_the_same_state() {
     [ "$(find "$tmp/pictures" -name 'frame_*.png' | wc -l)" -eq 15 ] # of 1/30 s
 }
 
+test_a_picture_of_what_stands_still_stands_still() {
+    printf 'nook recording 1\nlevel %s\nseed 1\n30 0 0 0 0 0\n' tests/play/data/crate.level >"$tmp/still.replay"
+    play --replay "$tmp/still.replay" --capture "$tmp/still" --size 160x90 --cache "$tmp/cache" >/dev/null
+    cmp "$tmp/still/frame_000010.png" "$tmp/still/frame_000015.png"
+    [ "$(wc -c <"$tmp/still/frame_000015.png")" -gt 4000 ] # something is seen
+}
+
 # Whether a process holds the end that SIGTERM asks for.
 holds_end() { (((0x$(awk '/^SigCgt/ { print $2 }' "/proc/$1/status") >> 14) & 1)); }
 
