@@ -13,6 +13,7 @@
 #include <string.h>
 
 static const double captured_rate = 30.0; /* pictures a second */
+static const double rest_ms = 8.0;        /* of a frame in which nothing is to be done */
 
 /* ---- Opening and closing ----------------------------------------------------------------------------------------- */
 
@@ -299,6 +300,16 @@ static nook_result draw(nook_play_window *w)
     return result;
 }
 
+/* While nothing moves the picture is kept, and the processor left to others; what is changed in the menu is seen at once. */
+static void keep_picture(nook_play_window *w, bool stands_still)
+{
+    bool kept = stands_still && w->has_window && memcmp(&w->preferences, &w->drawn, sizeof w->drawn) == 0;
+    w->drawn = w->preferences;
+    nook_live_hold(w->live, kept);
+    if (kept)
+        nook_clock_rest(rest_ms);
+}
+
 nook_result nook_play_window_frame(nook_play_window *w, bool *out_goes_on)
 {
     nook_input input;
@@ -311,6 +322,7 @@ nook_result nook_play_window_frame(nook_play_window *w, bool *out_goes_on)
     bool hidden = w->has_window && (input.width == 0 || input.height == 0);
     bool stands_still = (w->paused && !w->restart) || nook_live_frozen(w->live);
     nook_result result = stands_still ? NOOK_OK : run_ticks(w, seconds);
+    keep_picture(w, stands_still || hidden);
     if (result == NOOK_OK && !hidden)
         result = draw(w);
     nook_play_tell(w);

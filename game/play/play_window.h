@@ -59,7 +59,7 @@ typedef struct nook_play_window {
     nook_settings_reload *settings_watch; /**< The same of the settings file. */
     nook_settings_file settings;
     nook_controls controls;
-    nook_preferences preferences, kept; /**< Now, and as they are on disk. */
+    nook_preferences preferences, kept, drawn; /**< Now, as they are on disk, and as the last picture was drawn with. */
     char preferences_path[1024];
     char settings_path[1024]; /**< "": as it comes. */
     double frame_seconds;

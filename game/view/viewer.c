@@ -9,9 +9,9 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 
 static const double still_after_ms = 200.0; /* from the last movement to the full picture */
+static const double rest_ms = 8.0;          /* of a frame in which nothing is to be done */
 static const double turn_per_pixel = 0.005; /* radians */
 static const double fly_per_second = 0.25;  /* of the scene's diagonal */
 
@@ -210,16 +210,10 @@ static void reload(viewer *v)
     nook_live_message(v->live, "reload", reload_error(v));
 }
 
-static void rest(void)
-{
-    const struct timespec pause = { 0, 8 * 1000 * 1000 };
-    nanosleep(&pause, NULL);
-}
-
 static nook_result frame(viewer *v, const nook_input *input)
 {
     if (input->width == 0 || input->height == 0) { /* minimised */
-        rest();
+        nook_clock_rest(rest_ms);
         return NOOK_OK;
     }
     nook_result result = NOOK_OK;
@@ -228,7 +222,7 @@ static nook_result frame(viewer *v, const nook_input *input)
     reload(v);
     if (result == NOOK_OK && (v->moving || nook_live_is_stale(v->live)))
         return draw(v, input);
-    rest();
+    nook_clock_rest(rest_ms);
     return result;
 }
 
