@@ -52,4 +52,24 @@ test_a_folder_that_is_no_bundle_is_left_alone() {
     assert_holds "$(assert_fails 2 ./nook build --nonsense)" 'no such option'
 }
 
+test_a_folder_of_sources_is_left_alone() {
+    local tree="$tmp/sources" before
+    mkdir -p "$tree"/{shaders,modules,content,lib}
+    cp nook premake5.lua packages.txt "$tree"
+    echo mine | tee "$tree"/{shaders,modules,content,lib}/file >/dev/null
+    before=$(cd "$tree" && find . -type f -exec cksum {} + | sort)
+    assert_holds "$(assert_fails 1 ./nook bundle "$tree")" 'is no bundle'
+    assert_holds "$(cd "$tree" && assert_fails 1 ./nook bundle .)" 'is no bundle'
+    [ "$(cd "$tree" && find . -type f -exec cksum {} + | sort)" = "$before" ]
+}
+
+test_a_bundle_is_replaced_by_a_new_one() {
+    only_in_release
+    [ -x "$bundle/nook" ] || ./nook bundle "$bundle"
+    echo old >"$bundle/shaders/old"
+    ./nook bundle "$bundle"
+    [ ! -e "$bundle/shaders/old" ]
+    alone version | grep -q '^nook '
+}
+
 run_tests
