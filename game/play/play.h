@@ -75,9 +75,10 @@ void nook_play_print_end(const nook_play *play);
 nook_result nook_play_close(nook_play *play);
 
 /**
- * Plays a begun game without a window, as fast as it goes: to the end of what drives it, or 2 s beyond the end of the game; a
- * level with a time limit goes on to that. Ends in order while a Ctrl-C is held (game/interrupt.h). Prints how it ended.
- * @param out_orderly  won or lost, or ended where the level has neither
+ * Plays a begun game without a window, as fast as it goes: to the end of the replay or the pilot, or 2 s beyond the end of the
+ * game, whichever is first; with neither, to the level's time limit. Ends in order while a Ctrl-C is held (game/interrupt.h).
+ * Prints how it ended.
+ * @param out_orderly  won or lost, ended where the level has neither, or played to the end of the replay
  * @return as nook_play_tick; NOOK_E_ARG nothing drives it and it would never end
  */
 nook_result nook_play_headless(nook_play *play, bool *out_orderly);

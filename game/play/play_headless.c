@@ -21,14 +21,17 @@ bool nook_play_is_beyond_end(const nook_play *play)
     return play->ended_at > 0 && beyond >= seconds_beyond_the_end;
 }
 
-/* Whether there is nothing more to wait for. */
+static bool is_driven(const nook_play *play)
+{
+    return play->pilot || play->replay.level[0] != '\0';
+}
+
+/* Whether there is nothing more to wait for. What was recorded ends where it ended, so that the last states can be compared. */
 static bool is_over(const nook_play *play)
 {
-    if (play->ended_at > 0)
-        return nook_play_is_beyond_end(play);
-    if (!nook_play_is_free(play))
-        return false;
-    return play->pilot || !(play->level->seconds > 0.0); /* a replay that went astray is lost in time */
+    if (nook_play_is_beyond_end(play))
+        return true;
+    return nook_play_is_free(play) && (is_driven(play) || !(play->level->seconds > 0.0));
 }
 
 void nook_play_print_end(const nook_play *play)
@@ -55,6 +58,6 @@ nook_result nook_play_headless(nook_play *play, bool *out_orderly)
     }
     nook_play_print_end(play);
     *out_orderly = !nook_interrupt_asked() && play->pilot_status != NOOK_PILOT_FAILED &&
-                   (!can_end(play->level) || play->ended_at > 0);
+                   (!can_end(play->level) || play->ended_at > 0 || play->replay.level[0] != '\0');
     return NOOK_OK;
 }
