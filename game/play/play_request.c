@@ -31,7 +31,8 @@ static const char *find_idle(const nook_play_request *r)
 static const char details[] =
     "LEVEL is a .level file or any glTF file, whose nodes become bodies; default: the engine house.\n"
     "Without a window the last line says how it ended: won, lost, ended (nothing to win) or undecided, after how many\n"
-    "ticks of 1/60 s, and the hash of the state. It plays to the end of the replay or the pilot, or 2 s beyond that of\n"
+    "ticks of 1/60 s, and the hash of the state. It plays to the end of the replay or the pilot, or 2 s beyond that "
+    "of\n"
     "the game, whichever is first; with neither, to the level's time limit.\n"
     "Levels: docs/playing.md. Pilots: game/play/pilot.h.\n";
 
