@@ -16,6 +16,11 @@ typedef struct slab {
     size_t count, capacity;
 } slab;
 
+/* What lies in the slab that a worker is at. */
+typedef struct worker_bins {
+    nook_surfel_bins *bins;
+} worker_bins;
+
 typedef struct bake {
     const nook_triangles *triangles;
     const nook_grid_frame *frame;
@@ -23,7 +28,7 @@ typedef struct bake {
     uint8_t (*reach)[2]; /* first and last slab of each triangle; a first above the last: it has none */
     nook_brick *bricks;
     slab *slabs;
-    nook_surfel_bins **bins; /* of each worker */
+    worker_bins *workers;
     atomic_bool out_of_memory;
 } bake;
 
@@ -194,7 +199,7 @@ static bool fit_slab(bake *b, const nook_surfel_bins *bins, size_t count, size_t
 static void bake_slabs(void *user, size_t first, size_t last, unsigned worker)
 {
     bake *b = user;
-    cutter c = { .b = b, .bins = b->bins[worker] };
+    cutter c = { .b = b, .bins = b->workers[worker].bins };
     size_t triangle_count = b->triangles->index_count / 3;
     for (size_t s = first; s < last && !c.out_of_memory; s++) {
         nook_surfel_bins_clear(c.bins);
@@ -216,22 +221,22 @@ static bool allocate(bake *b, unsigned workers)
     b->reach = malloc(triangles * sizeof *b->reach);
     b->bricks = calloc((size_t)b->counts[0] * b->counts[1] * b->counts[2], sizeof *b->bricks);
     b->slabs = calloc(b->counts[2], sizeof *b->slabs);
-    b->bins = calloc(workers, sizeof *b->bins);
-    bool made = b->reach && b->bricks && b->slabs && b->bins;
+    b->workers = calloc(workers, sizeof *b->workers);
+    bool made = b->reach && b->bricks && b->slabs && b->workers;
     for (unsigned i = 0; made && i < workers; i++) {
-        b->bins[i] = nook_surfel_bins_create();
-        made = b->bins[i] != NULL;
+        b->workers[i].bins = nook_surfel_bins_create();
+        made = b->workers[i].bins != NULL;
     }
     return made;
 }
 
 static void release(bake *b, unsigned workers)
 {
-    for (unsigned i = 0; b->bins && i < workers; i++)
-        nook_surfel_bins_destroy(b->bins[i]);
+    for (unsigned i = 0; b->workers && i < workers; i++)
+        nook_surfel_bins_destroy(b->workers[i].bins);
     for (uint32_t s = 0; b->slabs && s < b->counts[2]; s++)
         free(b->slabs[s].surfels);
-    free(b->bins);
+    free(b->workers);
     free(b->slabs);
     free(b->reach);
     free(b->bricks);

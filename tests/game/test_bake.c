@@ -77,10 +77,10 @@ static void test_bake_fills_the_cache_and_finds_it_again(void **state)
     prepare(&b);
     char *argv[] = { "bake", b.scene, "--cache", b.cache, "--resolution", "20", "--threads", "1", NULL };
     assert_int_equal(run(&b, 8, argv), NOOK_EXIT_OK);
-    assert_int_equal(count_cache(&b, false), 1);
+    assert_int_equal(count_cache(&b, false), 2);
     assert_null(strstr(b.log.text, "from the cache"));
     assert_int_equal(run(&b, 8, argv), NOOK_EXIT_OK);
-    assert_int_equal(count_cache(&b, false), 1);
+    assert_int_equal(count_cache(&b, false), 2);
     assert_non_null(strstr(b.log.text, "20 voxels a side"));
     assert_non_null(strstr(b.log.text, "from the cache"));
     clear(&b);
