@@ -109,12 +109,12 @@ static void test_voxels_outside_of_the_volume_are_refused(void **state)
         uint32_t at[3] = { 4, 4, 4 };
         at[axis] = size[axis]; /* one too far, in a brick that there is */
         nook_volume grown = volume;
-        uint8_t *raw = payload_of(&volume);
         size_t bytes = nook_payload_size(&volume.info),
                brick = ((size_t)(at[2] / 4) * counts[1] + at[1] / 4) * counts[0] + at[0] / 4;
         uint32_t bit = nook_brick_bit(at[0], at[1], at[2]);
-        raw = realloc(raw, bytes + 8);
+        uint8_t *raw = malloc(bytes + 8);
         assert_non_null(raw);
+        assert_int_equal(nook_payload_write(&volume, raw), NOOK_OK);
         memcpy(raw + bytes, raw + bytes - 8, 8);
         raw[brick * 8 + bit / 8] |= (uint8_t)(1u << (bit % 8));
         grown.info.occupied++;
