@@ -201,19 +201,26 @@ static nook_tune_trial *best_of_measured(const nook_tune_trials *trials)
     return best;
 }
 
-/* The winner, measured in as many views as it asks for. Each turn measures more or ends, and views are limited. */
+/* The winner, measured in as many views as it and its user ask for. Each turn measures more or ends, and views are limited. */
 static nook_result choose(nook_tune_trials *trials, const nook_tune_trial **out_best)
 {
-    nook_tune_trial *best = best_of_measured(trials);
-    for (uint32_t wanted = nook_tune_trials_wanted(trials, best); best->view_count < wanted;) {
-        nook_result result = extend(trials, best, wanted);
+    const nook_tune_search_desc *desc = trials->desc;
+    for (;;) {
+        nook_tune_trial *best = best_of_measured(trials);
+        uint32_t wanted = nook_tune_trials_wanted(trials, best);
+        nook_result result = NOOK_OK;
+        if (best->view_count >= wanted && desc->ask)
+            result = desc->ask(desc->user, best, &wanted);
+        assert(wanted <= desc->views_max);
+        if (result == NOOK_OK && best->view_count >= wanted) {
+            *out_best = best;
+            return NOOK_OK;
+        }
+        if (result == NOOK_OK)
+            result = extend(trials, best, wanted);
         if (result != NOOK_OK)
             return result;
-        best = best_of_measured(trials);
-        wanted = nook_tune_trials_wanted(trials, best);
     }
-    *out_best = best;
-    return NOOK_OK;
 }
 
 static nook_result search(nook_tune_trials *trials, bool *out_settled)

@@ -26,6 +26,11 @@ typedef struct nook_tune_search_desc {
     uint32_t tries_max;   /**< Settings; at most NOOK_TUNE_TRIALS_MAX. */
     /** Measures a setting in a view. @param timed  false: ms may be NaN @return why not: the search ends with it */
     nook_result (*measure)(void *user, const nook_setting *setting, uint32_t view, bool timed, nook_tune_view *out);
+    /**
+     * In how many views the winner must be measured, asked when it was in as many as its own spread asks for; NULL: no more than those.
+     * @param out_views  at most views_max
+     */
+    nook_result (*ask)(void *user, const nook_tune_trial *winner, uint32_t *out_views);
     /** Told before each setting; NULL: nobody. @param best  so far, NULL at first */
     void (*tell)(void *user, const char *doing, uint32_t tried, const nook_tune_trial *best);
     void *user;
@@ -40,5 +45,5 @@ typedef struct nook_tune_outcome {
     uint32_t measurements;       /**< Settings x views. */
 } nook_tune_outcome;
 
-/** @return what measure returned, NOOK_E_MEMORY; *out is untouched then */
+/** @return what measure or ask returned, NOOK_E_MEMORY; *out is untouched then */
 nook_result nook_tune_search(const nook_tune_search_desc *desc, nook_tune_outcome *out);

@@ -68,10 +68,23 @@ uint32_t nook_tune_round_up(double views, uint32_t period)
     return (uint32_t)ceil(views / period) * period;
 }
 
+/* So many views of each of two sets make `sure` sqrt(2 / n) sigma equal to `part`. */
+static double needed(const nook_tune_estimate *estimate, double part, double sure)
+{
+    if (!(estimate->cost.error > 0.0) || estimate->views < 2)
+        return INFINITY;
+    double relative = estimate->error_standard / estimate->cost.error / part;
+    return 2.0 * sure * sure * relative * relative * estimate->views;
+}
+
 double nook_tune_views_needed(const nook_tune_estimate *estimate, double part)
 {
-    if (!(estimate->cost.error > 0.0))
-        return INFINITY;
-    double relative = estimate->error_standard / estimate->cost.error;
-    return 18.0 * relative * relative * estimate->views / (part * part); /* 3 sqrt(2 / n) sigma <= part */
+    return needed(estimate, part, 3.0);
+}
+
+double nook_tune_views_needed_surely(const nook_tune_estimate *estimate, double part)
+{
+    /* Student's t for what lies beyond 3 of the normal distribution, by Cornish and Fisher (Abramowitz and Stegun 26.7.5). */
+    double degrees = estimate->views - 1.0;
+    return needed(estimate, part, 3.0 + (7.5 + (17.25 + 30.1875 / degrees) / degrees) / degrees);
 }

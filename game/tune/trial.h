@@ -45,6 +45,9 @@ uint32_t nook_tune_round_up(double views, uint32_t period);
 
 /**
  * So many views of each of two sets make three times the standard error of the difference of their RMSE no more than `part` of it.
- * @param estimate  from a few of them @return infinite where it has no error
+ * @param estimate  from a few of them @return infinite where it has no error, or comes from one view
  */
 double nook_tune_views_needed(const nook_tune_estimate *estimate, double part);
+
+/** As many more as Student's distribution asks for, because few views do not know well how they differ (Stein 1945, two-stage sampling). */
+double nook_tune_views_needed_surely(const nook_tune_estimate *estimate, double part);

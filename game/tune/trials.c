@@ -90,20 +90,24 @@ static double common_ms(const nook_tune_trial *reference, const nook_tune_trial 
     return sum / count;
 }
 
-uint32_t nook_tune_wanted(const nook_tune_search_desc *desc, const nook_tune_estimate *estimate)
+static uint32_t within(const nook_tune_search_desc *desc, double needed)
 {
     if (desc->part == 0.0)
         return desc->views_max;
-    double needed = nook_tune_views_needed(estimate, desc->part);
     uint32_t views = needed < desc->views_max ? nook_tune_round_up(needed, desc->period) : desc->views_max;
     views = views < desc->views_few ? desc->views_few : views;
     return views < desc->views_max ? views : desc->views_max;
 }
 
+uint32_t nook_tune_wanted_surely(const nook_tune_search_desc *desc, const nook_tune_estimate *estimate)
+{
+    return within(desc, nook_tune_views_needed_surely(estimate, desc->part));
+}
+
 uint32_t nook_tune_trials_wanted(const nook_tune_trials *trials, const nook_tune_trial *trial)
 {
     nook_tune_estimate estimate = nook_tune_pool(trial->views, trial->view_count);
-    return nook_tune_wanted(trials->desc, &estimate);
+    return within(trials->desc, nook_tune_views_needed(&estimate, trials->desc->part));
 }
 
 /* The margins as parts of error and ms, as small as they will be in as many views as are wanted; 1: nothing is known of them. */

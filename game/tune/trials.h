@@ -26,8 +26,8 @@ nook_result nook_tune_trials_try(nook_tune_trials *trials, const char *doing, co
  */
 nook_result nook_tune_trials_extend(nook_tune_trials *trials, nook_tune_trial *trial, uint32_t views);
 
-/** In how many views something must be measured to be told, as the spread of an estimate asks for: [views_few, views_max]. */
-uint32_t nook_tune_wanted(const nook_tune_search_desc *desc, const nook_tune_estimate *estimate);
+/** How many views a proof needs, as the spread of what was measured so far surely asks for: [views_few, views_max]. */
+uint32_t nook_tune_wanted_surely(const nook_tune_search_desc *desc, const nook_tune_estimate *estimate);
 
 /** In how many views a trial must be measured to be told: as its own spread asks for, [views_few, views_max]. */
 uint32_t nook_tune_trials_wanted(const nook_tune_trials *trials, const nook_tune_trial *trial);

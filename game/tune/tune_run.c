@@ -16,14 +16,51 @@ static const double noise = 0.02;
 
 /* What the callbacks of the search need. */
 typedef struct tuning {
+    const nook_tune_search_desc *search;
     nook_tune_views views;
     nook_tune_progress progress;
+    nook_tune_point held_point; /* what the held-back views below are of */
+    nook_tune_view held[NOOK_TUNE_VIEWS_MAX];
+    uint32_t held_count;
 } tuning;
 
 static nook_result measure(void *user, const nook_setting *setting, uint32_t view, bool timed, nook_tune_view *out)
 {
     tuning *t = user;
     return nook_tune_views_measure(&t->views, setting, NOOK_TUNE_CHOOSE, view, timed, out);
+}
+
+static nook_result measure_held_back_up_to(tuning *t, const nook_setting *setting, uint32_t views)
+{
+    for (uint32_t i = t->held_count; i < views; i++) {
+        nook_tune_progress_proof(&t->progress, true, i, views);
+        nook_result measured = nook_tune_views_measure(&t->views, setting, NOOK_TUNE_PROVE, i, false, &t->held[i]);
+        if (measured != NOOK_OK)
+            return measured;
+        t->held_count = i + 1;
+    }
+    return NOOK_OK;
+}
+
+/*
+ * Measures the winner in as many views that nothing was chosen by, and in more until their own spread asks for no more. It must be
+ * predicted from as many: a few views may be more alike than all are. Which setting wins does not follow from these errors.
+ */
+static nook_result ask_held_back(void *user, const nook_tune_trial *winner, uint32_t *out_views)
+{
+    tuning *t = user;
+    if (!nook_tune_same(&t->held_point, &winner->point))
+        t->held_count = 0;
+    t->held_point = winner->point;
+    for (uint32_t wanted = winner->view_count; t->held_count < wanted;) {
+        nook_result measured = measure_held_back_up_to(t, &winner->setting, wanted);
+        if (measured != NOOK_OK)
+            return measured;
+        nook_tune_estimate estimate = nook_tune_pool(t->held, t->held_count);
+        wanted = nook_tune_wanted_surely(t->search, &estimate);
+    }
+    *out_views = t->held_count;
+    return NOOK_OK;
 }
 
 static void tell(void *user, const char *doing, uint32_t tried, const nook_tune_trial *best)
@@ -45,6 +82,7 @@ static nook_tune_search_desc describe(const nook_scene *scene, const nook_tune_o
                                    .part = given ? 0.0 : NOOK_TUNE_TOLERANCE,
                                    .tries_max = (uint32_t)options->tries,
                                    .measure = measure,
+                                   .ask = ask_held_back,
                                    .tell = tell,
                                    .user = t };
     desc.views_few = few < desc.views_max ? few : desc.views_max;
@@ -89,36 +127,12 @@ static nook_result time_winner(tuning *t, const nook_tune_goal *goal, nook_tune_
     return measured;
 }
 
-static nook_result measure_held_back_up_to(tuning *t, const nook_setting *setting, uint32_t from, uint32_t to,
-                                           nook_tune_view *views)
+static nook_result time_held_back(tuning *t, nook_tune_result *result)
 {
-    nook_result measured = NOOK_OK;
-    for (uint32_t i = from; i < to && measured == NOOK_OK; i++) {
-        nook_tune_progress_proof(&t->progress, true, i, to);
-        measured = nook_tune_views_measure(&t->views, setting, NOOK_TUNE_PROVE, i, false, &views[i]);
-    }
-    return measured;
-}
-
-/* In as many views that nothing was chosen by, and in more until their own spread asks for no more: they may differ more than those
-   that were chosen by. */
-static nook_result measure_held_back(tuning *t, const nook_tune_search_desc *search, nook_tune_result *result)
-{
-    const nook_setting *setting = &result->outcome.best.setting;
-    uint32_t count = 0, wanted = result->predicted.views;
-    nook_tune_view views[NOOK_TUNE_VIEWS_MAX];
-    while (count < wanted) {
-        nook_result measured = measure_held_back_up_to(t, setting, count, wanted, views);
-        if (measured != NOOK_OK)
-            return measured;
-        count = wanted;
-        nook_tune_estimate estimate = nook_tune_pool(views, count);
-        wanted = nook_tune_wanted(search, &estimate);
-    }
-    nook_result timed =
-        nook_tune_views_time(&t->views, setting, NOOK_TUNE_PROVE, timed_views(&search->goal, count), views);
+    nook_result timed = nook_tune_views_time(&t->views, &result->outcome.best.setting, NOOK_TUNE_PROVE,
+                                             timed_views(&t->search->goal, t->held_count), t->held);
     if (timed == NOOK_OK)
-        result->actual = nook_tune_pool(views, count);
+        result->actual = nook_tune_pool(t->held, t->held_count);
     return timed;
 }
 
@@ -138,13 +152,13 @@ static void judge(const nook_tune_goal *goal, nook_tune_result *result)
     result->holds = result->near && result->error_holds && result->ms_holds;
 }
 
-static nook_result prove(tuning *t, const nook_tune_search_desc *search, nook_tune_result *result)
+static nook_result prove(tuning *t, nook_tune_result *result)
 {
-    nook_result measured = time_winner(t, &search->goal, result);
+    nook_result measured = time_winner(t, &t->search->goal, result);
     if (measured == NOOK_OK)
-        measured = measure_held_back(t, search, result);
+        measured = time_held_back(t, result);
     if (measured == NOOK_OK)
-        judge(&search->goal, result);
+        judge(&t->search->goal, result);
     return measured;
 }
 
@@ -157,6 +171,7 @@ static nook_result search_and_prove(tuning *t, nook_stage *stage, const nook_tun
                                          .noise = noise,
                                          .rays_max = (uint32_t)options->reference_rays,
                                          .views_max = search.views_max };
+    t->search = &search;
     nook_progress *outer = stage->progress;
     t->progress = nook_tune_progress_begin(&options->goal, search.tries_max);
     stage->progress = t->progress.terminal ? outer : &t->progress.whole;
@@ -165,7 +180,7 @@ static nook_result search_and_prove(tuning *t, nook_stage *stage, const nook_tun
         done = nook_tune_search(&search, &result->outcome);
     result->predicted = result->outcome.estimate;
     if (done == NOOK_OK && result->outcome.fits)
-        done = prove(t, &search, result);
+        done = prove(t, result);
     stage->progress = outer;
     nook_tune_progress_end(&t->progress);
     nook_tune_views_close(&t->views);

@@ -31,7 +31,7 @@ typedef struct world {
     double own;        /* of views, for each technique another: as large as this, either way */
     double chance;     /* of a setting in a view: as large as this, either way */
     double ms_noise;   /* of each timing */
-    uint32_t measured, failing_at;
+    uint32_t measured, failing_at, asked;
     uint32_t tells;
     uint32_t seed; /* of timings */
 } world;
@@ -427,6 +427,38 @@ static void test_the_winner_is_measured_in_as_many_views_as_its_spread_asks_for(
     assert_true(relative < 1.3 * desc.part || found.estimate.views == desc.views_max);
 }
 
+static nook_result ask_for_more(void *user, const nook_tune_trial *winner, uint32_t *out_views)
+{
+    world *w = user;
+    w->asked++;
+    assert_true(winner->view_count >= 8);
+    *out_views = 23;
+    return NOOK_OK;
+}
+
+static nook_result ask_in_vain(void *user, const nook_tune_trial *winner, uint32_t *out_views)
+{
+    (void)user, (void)winner, (void)out_views;
+    return nook_fail(NOOK_E_DEVICE, "the device is gone");
+}
+
+static void test_the_winner_is_measured_in_as_many_views_as_its_user_asks_for(void **state)
+{
+    (void)state;
+    world w = make_world(0.0);
+    nook_tune_search_desc desc = desc_of(&w, 0.06, 0.0);
+    assert_int_equal(must_search(&w, &desc).estimate.views, desc.views_few);
+    desc.ask = ask_for_more;
+    assert_int_equal(must_search(&w, &desc).estimate.views, 23);
+    assert_true(w.asked >= 2); /* again when it was measured in them: another may be the best by then */
+    desc.ask = ask_in_vain;
+    nook_tune_outcome outcome;
+    nook_log_capture log;
+    nook_log_capture_begin(&log);
+    assert_int_equal(nook_tune_search(&desc, &outcome), NOOK_E_DEVICE);
+    nook_log_capture_end();
+}
+
 static void test_numbers_of_views_follow_the_period_of_the_cameras(void **state)
 {
     (void)state;
@@ -498,6 +530,7 @@ int main(void)
         cmocka_unit_test(test_with_two_limits_the_error_decides_among_what_is_within_both),
         cmocka_unit_test(test_when_nothing_fits_the_nearest_is_told),
         cmocka_unit_test(test_the_winner_is_measured_in_as_many_views_as_its_spread_asks_for),
+        cmocka_unit_test(test_the_winner_is_measured_in_as_many_views_as_its_user_asks_for),
         cmocka_unit_test(test_numbers_of_views_follow_the_period_of_the_cameras),
         cmocka_unit_test(test_a_few_tries_are_kept_to),
         cmocka_unit_test(test_a_measurement_that_fails_ends_the_search),

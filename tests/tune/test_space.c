@@ -208,8 +208,18 @@ static void test_the_number_of_views_follows_from_their_spread(void **state)
 {
     (void)state;
     /* 8 views give 5 % standard error, so one view 14 %; two sets of n: 3 sqrt(2 / n) 14 % = 15 % */
-    const nook_tune_estimate estimate = { .cost = { 0.1, 1.0 }, .error_standard = 0.005, .views = 8 };
-    assert_true(fabs(nook_tune_views_needed(&estimate, 0.15) - 18.0 * 8.0 * 0.0025 / 0.0225) < 1e-9);
+    nook_tune_estimate estimate = { .cost = { 0.1, 1.0 }, .error_standard = 0.005, .views = 8 };
+    double plain = nook_tune_views_needed(&estimate, 0.15);
+    assert_true(fabs(plain - 18.0 * 8.0 * 0.0025 / 0.0225) < 1e-9);
+    /* Of Student's distribution of 7 degrees as much lies beyond 4.530 as of the normal one beyond 3. */
+    double surely = nook_tune_views_needed_surely(&estimate, 0.15);
+    assert_true(fabs(surely / plain / pow(4.530 / 3.0, 2.0) - 1.0) < 0.01);
+    /* Many views know their own spread. */
+    estimate.views = 1000000;
+    assert_true(nook_tune_views_needed_surely(&estimate, 0.15) / nook_tune_views_needed(&estimate, 0.15) - 1.0 < 1e-5);
+    estimate.views = 1;
+    assert_true(isinf(nook_tune_views_needed(&estimate, 0.15)));
+    assert_true(isinf(nook_tune_views_needed_surely(&estimate, 0.15)));
 }
 
 int main(void)

@@ -84,18 +84,18 @@ test_when_nothing_fits_the_nearest_is_told_and_nothing_written() {
 test_a_time_that_may_not_be_kept_is_marked_and_nothing_written() {
     # what is chosen on a machine at ease is timed again: whether it still is within is chance, what is said of it is not
     local code=0 fits p q s t
-    tune --max-ms 3 --cameras 6 --techniques ssao --tries 12 --out "$tmp/timed.txt" --json >"$tmp/timed.json" 2>"$tmp/said" || code=$?
-    fits=$(number "$tmp/timed.json" fits)
+    tune --max-ms 3 --cameras 6 --techniques ssao --tries 12 --out "$tmp/tight.txt" --json >"$tmp/tight.json" 2>"$tmp/said" || code=$?
+    fits=$(number "$tmp/tight.json" fits)
     if [ "$fits" = true ]; then
-        p=$(number "$tmp/timed.json" ms 1) q=$(number "$tmp/timed.json" ms 2)
-        s=$(number "$tmp/timed.json" ms_spread 1) t=$(number "$tmp/timed.json" ms_spread 2)
+        p=$(number "$tmp/tight.json" ms 1) q=$(number "$tmp/tight.json" ms 2)
+        s=$(number "$tmp/tight.json" ms_spread 1) t=$(number "$tmp/tight.json" ms_spread 2)
         local within=false
         if holds "$p - $s <= 3 && $q - $t <= 3"; then within=true; fi
-        [ "$(number "$tmp/timed.json" ms_holds)" = $within ]
-        holds "$(number "$tmp/timed.json" ms_chosen_by) < 3"
+        [ "$(number "$tmp/tight.json" ms_holds)" = $within ]
+        holds "$(number "$tmp/tight.json" ms_chosen_by) < 3"
     fi
-    [ "$(number "$tmp/timed.json" holds)" = true ] && [ "$code" -eq 0 ] && [ -s "$tmp/timed.txt" ] ||
-        { [ "$code" -eq 1 ] && [ ! -e "$tmp/timed.txt" ]; }
+    [ "$(number "$tmp/tight.json" holds)" = true ] && [ "$code" -eq 0 ] && [ -s "$tmp/tight.txt" ] ||
+        { [ "$code" -eq 1 ] && [ ! -e "$tmp/tight.txt" ]; }
 }
 
 # refused CODE TEXT OPTIONS...: one line with that text, nothing written.
