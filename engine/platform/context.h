@@ -121,6 +121,10 @@ typedef enum nook_pad_button {
     NOOK_PAD_START,
     NOOK_PAD_LEFT_THUMB,
     NOOK_PAD_RIGHT_THUMB,
+    NOOK_PAD_UP, /**< Of the cross. */
+    NOOK_PAD_DOWN,
+    NOOK_PAD_LEFT,
+    NOOK_PAD_RIGHT,
     NOOK_PAD_COUNT
 } nook_pad_button;
 

@@ -1,9 +1,7 @@
 /* A window by GLFW, with its input. GLFW is never terminated: that would end every window of the process, and unload the GL
    driver with what it still holds. The end of the process does it. */
 #include "engine/platform/context_internal.h"
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
-#include <math.h>
+#include "engine/platform/gamepad_internal.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -151,45 +149,14 @@ static void read_mouse(window_context *self, nook_input *input)
         input->mouse_down[i] = glfwGetMouseButton(self->window, mouse_buttons[i]) == GLFW_PRESS;
 }
 
-/* A stick's two axes, its middle made quiet; what lies outside of that starts from 0 again. */
-static void read_stick(const float axes[2], double out[2])
-{
-    const double dead = 0.15;
-    double x = axes[0], y = -axes[1]; /* GLFW's y points down */
-    double length = sqrt(x * x + y * y);
-    double scale = length > dead ? fmin((length - dead) / (1.0 - dead), 1.0) / length : 0.0;
-    out[0] = x * scale;
-    out[1] = y * scale;
-}
-
+/* The first one that GLFW knows a mapping for. One that is pulled out lets go of everything. */
 static void read_gamepad(window_context *self, nook_gamepad *out)
 {
-    static const int buttons[NOOK_PAD_COUNT] = {
-        [NOOK_PAD_SOUTH] = GLFW_GAMEPAD_BUTTON_A,
-        [NOOK_PAD_EAST] = GLFW_GAMEPAD_BUTTON_B,
-        [NOOK_PAD_WEST] = GLFW_GAMEPAD_BUTTON_X,
-        [NOOK_PAD_NORTH] = GLFW_GAMEPAD_BUTTON_Y,
-        [NOOK_PAD_LEFT_BUMPER] = GLFW_GAMEPAD_BUTTON_LEFT_BUMPER,
-        [NOOK_PAD_RIGHT_BUMPER] = GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER,
-        [NOOK_PAD_BACK] = GLFW_GAMEPAD_BUTTON_BACK,
-        [NOOK_PAD_START] = GLFW_GAMEPAD_BUTTON_START,
-        [NOOK_PAD_LEFT_THUMB] = GLFW_GAMEPAD_BUTTON_LEFT_THUMB,
-        [NOOK_PAD_RIGHT_THUMB] = GLFW_GAMEPAD_BUTTON_RIGHT_THUMB,
-    };
-    GLFWgamepadstate state = { 0 };
-    for (int i = GLFW_JOYSTICK_1; i <= GLFW_JOYSTICK_LAST && !out->present; i++)
-        out->present = glfwJoystickIsGamepad(i) && glfwGetGamepadState(i, &state);
-    for (int i = 0; i < NOOK_PAD_COUNT; i++) {
-        out->down[i] = out->present && state.buttons[buttons[i]] == GLFW_PRESS;
-        out->pressed[i] = out->down[i] && !self->pad_down[i];
-    }
-    memcpy(self->pad_down, out->down, sizeof self->pad_down);
-    if (!out->present)
-        return;
-    read_stick(&state.axes[GLFW_GAMEPAD_AXIS_LEFT_X], out->left);
-    read_stick(&state.axes[GLFW_GAMEPAD_AXIS_RIGHT_X], out->right);
-    out->left_trigger = 0.5 + 0.5 * (double)state.axes[GLFW_GAMEPAD_AXIS_LEFT_TRIGGER];
-    out->right_trigger = 0.5 + 0.5 * (double)state.axes[GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER];
+    GLFWgamepadstate state;
+    bool present = false;
+    for (int i = GLFW_JOYSTICK_1; i <= GLFW_JOYSTICK_LAST && !present; i++)
+        present = glfwJoystickIsGamepad(i) && glfwGetGamepadState(i, &state);
+    nook_gamepad_take(present ? &state : NULL, self->pad_down, out);
 }
 
 static void poll(nook_context *context, nook_input *out_input)
