@@ -67,7 +67,8 @@ nook_result nook_overlay_create(nook_gpu *gpu, nook_overlay **out_overlay)
     ImGuiIO &io = ImGui::GetIO();
     io.IniFilename = nullptr;
     io.LogFilename = nullptr;
-    io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
+    io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset | ImGuiBackendFlags_HasGamepad;
+    io.ConfigFlags |= ImGuiConfigFlags_NavEnableGamepad;
     io.ConfigWindowsMoveFromTitleBarOnly = true;
     map_keys(&io);
     *out_overlay = overlay;
@@ -133,6 +134,22 @@ static void feed_keys(ImGuiIO *io, const nook_input *input)
         io->AddInputCharacter(input->typed[i]);
 }
 
+/* Only panels that take a gamepad hear of it. */
+static void feed_pad(ImGuiIO *io, const nook_input *input)
+{
+    const double far = 0.5; /* of a stick's way: it counts as the cross */
+    std::memset(io->NavInputs, 0, sizeof io->NavInputs);
+    if (!input || !input->pad.present)
+        return;
+    const nook_gamepad &pad = input->pad;
+    io->NavInputs[ImGuiNavInput_Activate] = pad.down[NOOK_PAD_SOUTH];
+    io->NavInputs[ImGuiNavInput_Cancel] = pad.down[NOOK_PAD_EAST];
+    io->NavInputs[ImGuiNavInput_DpadLeft] = pad.down[NOOK_PAD_LEFT] || pad.left[0] < -far;
+    io->NavInputs[ImGuiNavInput_DpadRight] = pad.down[NOOK_PAD_RIGHT] || pad.left[0] > far;
+    io->NavInputs[ImGuiNavInput_DpadUp] = pad.down[NOOK_PAD_UP] || pad.left[1] > far;
+    io->NavInputs[ImGuiNavInput_DpadDown] = pad.down[NOOK_PAD_DOWN] || pad.left[1] < -far;
+}
+
 static void feed_mouse(ImGuiIO *io, const nook_input *input)
 {
     const float nowhere = -3.402823466e+38F;
@@ -154,6 +171,7 @@ nook_overlay_taken nook_overlay_begin(nook_overlay *overlay, const nook_overlay_
     io.DisplaySize = ImVec2((float)frame->width, (float)frame->height);
     io.DeltaTime = frame->seconds > 1e-6 ? (float)frame->seconds : 1e-6f;
     feed_keys(&io, frame->input);
+    feed_pad(&io, frame->input);
     feed_mouse(&io, frame->input);
     ImGui::NewFrame();
     overlay->begun = true;

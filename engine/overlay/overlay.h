@@ -60,7 +60,8 @@ typedef struct nook_overlay_panel {
     double height;     /**< The same; 0: as high as what is in it. */
     bool bare;         /**< No title and no frame, and it cannot be moved: a list of lines in a corner. */
     bool passive;      /**< The mouse goes through it. */
-    bool *open;        /**< NULL: it cannot be closed. Else there is a button that sets it to false. */
+    bool pad;   /**< A gamepad reaches its widgets too: the cross or the left stick chooses, A presses, B lets go. */
+    bool *open; /**< NULL: it cannot be closed. Else there is a button that sets it to false. */
 } nook_overlay_panel;
 
 /** @return false: it is folded, leave out its widgets. Call end all the same. */

@@ -24,7 +24,9 @@ static ImVec2 place_of(const nook_overlay_panel *panel, ImVec2 *pivot)
 bool nook_overlay_panel_begin(nook_overlay *overlay, const nook_overlay_panel *panel)
 {
     (void)overlay;
-    ImGuiWindowFlags flags = ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav;
+    ImGuiWindowFlags flags = ImGuiWindowFlags_NoSavedSettings;
+    if (!panel->pad)
+        flags |= ImGuiWindowFlags_NoNav;
     if (panel->bare)
         flags |= ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoFocusOnAppearing;
     if (panel->passive)

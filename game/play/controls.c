@@ -59,8 +59,16 @@ void nook_controls_add(nook_controls *controls, const nook_input *input, const n
     double forward = axis(down[NOOK_KEY_S] || down[NOOK_KEY_DOWN], down[NOOK_KEY_W] || down[NOOK_KEY_UP], pad->left[1]);
     controls->held.right = (int8_t)lround(127.0 * right);
     controls->held.forward = (int8_t)lround(127.0 * forward);
-    controls->held.buttons = held_buttons(input);
+    uint16_t held = held_buttons(input);
+    controls->not_ours &= held;
+    controls->held.buttons = held & (uint16_t)~controls->not_ours;
     controls->pressed |= pressed_buttons(controls, input);
+}
+
+void nook_controls_skip(nook_controls *controls, const nook_input *input)
+{
+    controls->not_ours = held_buttons(input);
+    controls->thrown = input->pad.right_trigger > 0.5;
 }
 
 /* Takes whole steps; what is left of one waits for the next tick. */

@@ -6,6 +6,8 @@
  *   Ctrl, C           crouch         B / circle         E, click      take, let go   X / square
  *   Q, right click    throw          right trigger      R, held       turn it        right bumper
  *   Backspace         from the start again              Back
+ *
+ * What is pressed in a menu and still held when it closes is not the game's.
  */
 #pragma once
 #include "engine/platform/context.h"
@@ -17,11 +19,14 @@ typedef struct nook_controls {
     double yaw, pitch; /**< 1/65536 of a full turn. */
     uint16_t pressed;  /**< Buttons that count once. */
     bool thrown;       /**< The trigger that throws was down at the last frame. */
+    uint16_t not_ours; /**< Buttons that count again when they were let go. */
     nook_play_input held;
 } nook_controls;
 
 /** Takes in what came since the last frame. @param seconds of that frame: sticks turn with time, mice do not */
 void nook_controls_add(nook_controls *controls, const nook_input *input, const nook_preferences *preferences,
                        double seconds);
+/** The same of a frame whose input went to a menu: what is held in it waits to be let go. */
+void nook_controls_skip(nook_controls *controls, const nook_input *input);
 /** The next tick's input: all turning and pressing that came goes into the first tick after it. */
 nook_play_input nook_controls_take(nook_controls *controls);

@@ -131,7 +131,8 @@ void nook_play_draw_menu(nook_play_window *window, nook_overlay *overlay)
     const nook_overlay_panel panel = { .title = "Paused##menu",
                                        .x = fmax(0.5 * (window->width - width * letter), 1.0),
                                        .y = 0.15 * window->height,
-                                       .width = width };
+                                       .width = width,
+                                       .pad = true };
     if (nook_overlay_panel_begin(overlay, &panel)) {
         nook_overlay_text_wrapped(overlay, width - 2.0, window->play.level->title);
         nook_overlay_text_wrapped(overlay, width - 2.0, window->play.level->task);
@@ -164,7 +165,7 @@ void nook_play_draw_help(nook_overlay *overlay)
         { "Q, right click", "throw", "right trigger" },
         { "R, held", "turn it", "right bumper" },
         { "Backspace", "from the start", "Back" },
-        { "Esc", "pause", "Start" },
+        { "Esc", "pause", "Start; cross, A" },
         { "F11", "full screen", "" },
     };
     const nook_overlay_panel panel = { .title = "Playing##help", .x = 10.0, .y = -10.0, .passive = true };

@@ -271,7 +271,9 @@ static void use_input(nook_play_window *w, const nook_input *input, double secon
     read_keys(w, input);
     capture_mouse(w, input);
     nook_live_input(w->live, input, !w->captured, &rest);
-    if (!w->paused)
+    if (w->paused)
+        nook_controls_skip(&w->controls, input);
+    else
         nook_controls_add(&w->controls, &rest, &w->preferences, seconds);
     if (input->width > 0 && input->height > 0) {
         w->width = input->width;

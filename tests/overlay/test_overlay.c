@@ -24,7 +24,7 @@ typedef struct fixture {
     nook_overlay_taken taken;
     double reach, fraction;
     int rays, choice, pressed, settled;
-    bool on, open;
+    bool on, open, pad;
     char text[32];
     double place[8][4]; /* of the widgets, in order */
     uint8_t (*pixels)[4];
@@ -59,9 +59,13 @@ static int tear_down(void **state)
 static void show_panel(fixture *f)
 {
     nook_overlay *o = f->overlay;
-    const nook_overlay_panel panel = {
-        .title = "Volume", .x = 10, .y = 10, .width = 18, .height = 14, .open = &f->open
-    };
+    const nook_overlay_panel panel = { .title = f->pad ? "Volume##pad" : "Volume",
+                                       .x = 10,
+                                       .y = 10,
+                                       .width = 18,
+                                       .height = 14,
+                                       .pad = f->pad,
+                                       .open = &f->open };
     int i = 0;
     if (nook_overlay_panel_begin(o, &panel)) {
         nook_overlay_slider(o, "fraction", &f->fraction, 0.0, 1.0, "%");
@@ -258,6 +262,39 @@ static void test_button_and_checkbox_answer_a_click_shorter_than_a_frame(void **
     assert_true(f->on);
 }
 
+/* Presses a button of the gamepad for a frame, and lets go of it for one. */
+static void press_pad(fixture *f, nook_pad_button button)
+{
+    f->input.pad.down[button] = true;
+    step(f);
+    f->input.pad.down[button] = false;
+    step(f);
+}
+
+static void test_a_gamepad_reaches_panels_that_take_it_and_no_others(void **state)
+{
+    fixture *f = *state;
+    f->input.pad.present = true;
+    for (int takes = 0; takes < 2; takes++) {
+        f->pad = takes != 0;
+        f->on = false;
+        f->pressed = 0;
+        for (int i = 0; i < 3; i++)
+            step(f);
+        for (int i = 0; i < COUNT; i++) /* from the first widget on */
+            press_pad(f, NOOK_PAD_DOWN);
+        press_pad(f, NOOK_PAD_SOUTH);
+        assert_int_equal(f->on, takes);
+        f->input.pad.left[1] = -1.0; /* a stick does it too */
+        step(f);
+        f->input.pad.left[1] = 0.0;
+        step(f);
+        press_pad(f, NOOK_PAD_SOUTH);
+        assert_int_equal(f->pressed, takes);
+        assert_true(f->fraction == 0.5 && f->rays == 8);
+    }
+}
+
 static void test_letters_go_where_the_cursor_is(void **state)
 {
     fixture *f = *state;
@@ -367,6 +404,7 @@ int main(void)
         TEST(test_click_with_control_types_a_number),
         TEST(test_choice_opens_a_list_and_takes_what_is_clicked),
         TEST(test_button_and_checkbox_answer_a_click_shorter_than_a_frame),
+        TEST(test_a_gamepad_reaches_panels_that_take_it_and_no_others),
         TEST(test_letters_go_where_the_cursor_is),
         TEST(test_mouse_beside_a_panel_is_not_taken),
         TEST(test_denser_displays_get_larger_letters),

@@ -114,6 +114,24 @@ static void test_a_trigger_throws_once_until_it_is_let_go(void **state)
     assert_int_equal(nook_controls_take(&controls).buttons, NOOK_PLAY_THROW);
 }
 
+static void test_what_is_held_when_a_menu_closes_counts_when_it_is_pressed_again(void **state)
+{
+    (void)state;
+    nook_controls controls = { .yaw = 0.0 };
+    nook_preferences preferences;
+    nook_input input = { .pad = { .present = true, .down = { [NOOK_PAD_SOUTH] = true }, .right_trigger = 1.0 } };
+    nook_preferences_reset(&preferences);
+    nook_controls_skip(&controls, &input);
+    for (int frame = 0; frame < 2; frame++) {
+        nook_controls_add(&controls, &input, &preferences, 0.016);
+        assert_int_equal(nook_controls_take(&controls).buttons, 0);
+    }
+    const nook_input let_go = { .pad = { .present = true } };
+    nook_controls_add(&controls, &let_go, &preferences, 0.016);
+    nook_controls_add(&controls, &input, &preferences, 0.016);
+    assert_int_equal(nook_controls_take(&controls).buttons, NOOK_PLAY_JUMP | NOOK_PLAY_THROW);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -124,6 +142,7 @@ int main(void)
         cmocka_unit_test(test_a_stick_turns_with_time_and_a_mouse_does_not),
         cmocka_unit_test(test_looking_up_is_up_unless_it_is_inverted),
         cmocka_unit_test(test_a_trigger_throws_once_until_it_is_let_go),
+        cmocka_unit_test(test_what_is_held_when_a_menu_closes_counts_when_it_is_pressed_again),
     };
     return cmocka_run_group_tests_name("controls", tests, NULL, NULL);
 }
