@@ -37,6 +37,29 @@ bool nook_capture_is_video(const char *path)
 
 /* ---- Video -------------------------------------------------------------------------------------------------------- */
 
+static nook_result refuse_without_encoder(const char *path)
+{
+    return nook_fail(NOOK_E_NOT_FOUND,
+                     "%s: videos are made by ffmpeg, which is not installed; install the package ffmpeg, or give a "
+                     "folder for PNG files",
+                     path);
+}
+
+/* As the shell would find it. */
+static bool has_encoder(void)
+{
+    const char *folders = getenv("PATH");
+    for (const char *at = folders ? folders : ""; *at; at += strspn(at, ":")) {
+        char program[1024];
+        size_t length = strcspn(at, ":");
+        snprintf(program, sizeof program, "%.*s/ffmpeg", (int)length, at);
+        if (access(program, X_OK) == 0)
+            return true;
+        at += length;
+    }
+    return false;
+}
+
 /* Sides of most video formats are even. */
 static nook_result spawn_encoder(nook_capture *capture, double rate, int input)
 {
@@ -72,10 +95,7 @@ static nook_result spawn_encoder(nook_capture *capture, double rate, int input)
     if (error == 0)
         return NOOK_OK;
     if (error == ENOENT)
-        return nook_fail(NOOK_E_NOT_FOUND,
-                         "%s: videos are made by ffmpeg, which is not installed; install the package ffmpeg, or give a "
-                         "folder for PNG files",
-                         capture->path);
+        return refuse_without_encoder(capture->path);
     return nook_fail(NOOK_E_DEVICE, "%s: ffmpeg cannot be started (%s)", capture->path, strerror(error));
 }
 
@@ -119,11 +139,11 @@ static bool encoder_succeeded(pid_t encoder)
 
 /* ---- Folder ------------------------------------------------------------------------------------------------------- */
 
-static nook_result open_folder(nook_capture *capture)
+static nook_result open_folder(const char *path)
 {
-    nook_result result = nook_directory_make(capture->path);
-    if (result == NOOK_OK && access(capture->path, W_OK) != 0)
-        result = nook_fail(NOOK_E_IO, "%s: pictures cannot be written there (%s)", capture->path, strerror(errno));
+    nook_result result = nook_directory_make(path);
+    if (result == NOOK_OK && access(path, W_OK) != 0)
+        result = nook_fail(NOOK_E_IO, "%s: pictures cannot be written there (%s)", path, strerror(errno));
     return result;
 }
 
@@ -134,6 +154,13 @@ static nook_result write_frame(nook_capture *capture, const uint8_t *rgb)
     snprintf(name, sizeof name, "frame_%06llu.png", (unsigned long long)capture->count + 1);
     nook_path_join(path, sizeof path, capture->path, name);
     return nook_picture_write_png(&picture, path);
+}
+
+nook_result nook_capture_check(const char *path)
+{
+    if (!nook_capture_is_video(path))
+        return open_folder(path);
+    return has_encoder() ? nook_file_probe(path) : refuse_without_encoder(path);
 }
 
 /* ---- Both --------------------------------------------------------------------------------------------------------- */
@@ -149,7 +176,7 @@ nook_result nook_capture_open(const nook_capture_desc *desc, nook_capture **out_
     capture->pipe = -1;
     nook_result result = nook_capture_is_video(desc->path)
                              ? open_video(capture, desc->rate > 0.0 ? desc->rate : usual_rate)
-                             : open_folder(capture);
+                             : open_folder(capture->path);
     if (result != NOOK_OK) {
         free(capture);
         return result;

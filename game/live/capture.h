@@ -20,6 +20,12 @@ typedef struct nook_capture_desc {
 bool nook_capture_is_video(const char *path);
 
 /**
+ * What can be known before anything is drawn, for who would else find out after minutes of baking: whether the folder can be written to
+ * (it is made), whether ffmpeg is there. @return as nook_capture_open
+ */
+nook_result nook_capture_check(const char *path);
+
+/**
  * @return NOOK_E_IO the folder cannot be made or written to; NOOK_E_NOT_FOUND ffmpeg is not installed (the line says what to do);
  *         NOOK_E_DEVICE it cannot be started; NOOK_E_MEMORY. *out_capture is NULL then
  */

@@ -53,6 +53,13 @@ static void draw_cross(nook_overlay *overlay, double x, double y, bool something
     nook_overlay_line(overlay, (double[]){ x, y - arm }, (double[]){ x, y + arm }, colour, 2.0);
 }
 
+/* A name of a file as people write it. */
+static void put_blanks(char *name)
+{
+    for (char *c = name; *c; c++)
+        *c = *c == '_' ? ' ' : *c;
+}
+
 static void draw_hint(nook_overlay *overlay, const nook_session_view *view, double x, double y)
 {
     char text[160];
@@ -62,6 +69,7 @@ static void draw_hint(nook_overlay *overlay, const nook_session_view *view, doub
         snprintf(text, sizeof text, "E take %s", view->looked_at);
     else
         return;
+    put_blanks(text);
     label_around(overlay, x, y, white, text);
 }
 
@@ -108,8 +116,7 @@ static void draw_preference(nook_play_window *window, nook_overlay *overlay, con
 {
     char label[64];
     snprintf(label, sizeof label, "%s", param->name);
-    for (char *c = label; *c; c++)
-        *c = *c == '_' ? ' ' : *c;
+    put_blanks(label);
     double value = nook_param_get(param, &window->preferences);
     int choice = (int)value;
     bool changed = false;

@@ -131,7 +131,9 @@ nook_result nook_play_window_open(const char *root, const nook_play_window_desc 
     nook_path_join(w->preferences_path, sizeof w->preferences_path, desc->cache, "preferences.txt");
     nook_preferences_read(w->preferences_path, &w->preferences);
     w->kept = w->preferences;
-    nook_result result = nook_play_open(&desc->play, &w->play);
+    nook_result result = desc->capture ? nook_capture_check(desc->capture) : NOOK_OK;
+    if (result == NOOK_OK)
+        result = nook_play_open(&desc->play, &w->play);
     if (result == NOOK_OK)
         result = read_settings(w, desc->settings);
     if (result == NOOK_OK)

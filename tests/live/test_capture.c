@@ -116,6 +116,30 @@ static void test_video_without_ffmpeg_says_what_to_install(void **state)
     assert_non_null(strstr(log.text, "install the package ffmpeg, or give a folder"));
 }
 
+/* Says why not in one line. */
+static void must_check(const char *path, nook_result expected)
+{
+    nook_log_capture log;
+    nook_log_capture_begin(&log);
+    assert_int_equal(nook_capture_check(path), expected);
+    nook_log_capture_end();
+    assert_int_equal(log.count, expected != NOOK_OK);
+}
+
+static void test_what_cannot_be_captured_is_known_before_anything_is_drawn(void **state)
+{
+    (void)state;
+    char path[4096];
+    install(NULL);
+    must_check("/proc/frames", NOOK_E_IO);
+    must_check(nook_scratch_path(path, sizeof path, "made/frames"), NOOK_OK);
+    assert_true(nook_directory_exists(path));
+    must_check(nook_scratch_path(path, sizeof path, "run.mp4"), NOOK_E_NOT_FOUND);
+    install("exit 0");
+    must_check(path, NOOK_OK);
+    must_check("nowhere/run.mp4", NOOK_E_IO);
+}
+
 static void test_ffmpeg_gets_every_picture_and_how_they_are(void **state)
 {
     (void)state;
@@ -197,6 +221,7 @@ int main(void)
         cmocka_unit_test(test_folder_that_cannot_be_made_is_refused),
         cmocka_unit_test(test_names_of_videos_are_told_by_their_ending),
         WITH_PATH(test_video_without_ffmpeg_says_what_to_install),
+        WITH_PATH(test_what_cannot_be_captured_is_known_before_anything_is_drawn),
         WITH_PATH(test_ffmpeg_gets_every_picture_and_how_they_are),
         WITH_PATH(test_ffmpeg_that_dies_fails_the_capture_and_nothing_else),
         WITH_PATH(test_ffmpeg_that_fails_at_the_end_is_told_at_the_close),
