@@ -86,6 +86,7 @@ library("nook_ecs", c_project, "engine/ecs", "/**.c")
 library("nook_physics", c_project, "engine/physics", "/**.c")
 library("nook_gltf", cpp_project, "engine/asset", "/**.cpp") -- the shim around tinygltf, behind a C header
 library("nook_asset", c_project, "engine/asset", "/**.c")
+library("nook_animation", c_project, "engine/animation", "/**.c")
 library("nook_overlay", c_project, "engine/overlay", "/**.c")
 library("nook_imgui", cpp_project, "engine/overlay", "/**.cpp") -- the shim around Dear ImGui, behind the overlay's header
 library("nook_bake", c_project, "modules/bake", "/**.c")

@@ -112,7 +112,7 @@ static nook_result check_accessor(const nook_gltf *gltf, uint32_t index)
     if (!size)
         return nook_fail(NOOK_E_FORMAT, "%s: accessors[%u] has componentType %d", gltf->path, index, a->component_type);
     if (a->components == 0)
-        return NOOK_OK; /* matrices belong to skins, which are not read */
+        return NOOK_OK; /* nothing that is read has smaller matrices */
     if (a->view == NOOK_GLTF_NONE && a->count > ZERO_COUNT_MAX)
         return nook_fail(NOOK_E_FORMAT, "%s: accessors[%u] has %u elements and no data", gltf->path, index, a->count);
     nook_result result = NOOK_OK;

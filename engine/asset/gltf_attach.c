@@ -6,8 +6,8 @@
 #include <math.h>
 #include <string.h>
 
-/* The same place and view direction without scale, shear and mirroring; axis-aligned when there is no direction. */
-static nook_matrix without_scale(const nook_matrix *m)
+/* Axis-aligned when there is no direction. */
+nook_matrix nook_scene_without_scale(const nook_matrix *m)
 {
     nook_matrix out = nook_matrix_translation(m->m[12], m->m[13], m->m[14]);
     double y[3], z[3];
@@ -36,7 +36,7 @@ static nook_result attach_camera(nook_gltf *gltf, const nook_gltf_node *from, co
     *out = (nook_scene_camera){ .fov_y_radians = usable ? camera->fov_y_radians : NOOK_PI / 3.0,
                                 .z_near = usable ? camera->z_near : 0.01,
                                 .perspective = camera->perspective,
-                                .world_from_view = without_scale(world) };
+                                .world_from_view = nook_scene_without_scale(world) };
     out->name = nook_scene_copy_string(camera->name[0] ? camera->name : from->name);
     if (!out->name)
         return NOOK_E_MEMORY;
@@ -68,7 +68,7 @@ static void attach_light(nook_gltf *gltf, const nook_gltf_node *from, const nook
                          .range = positive(light->range),
                          .inner_cone = (float)fmin(positive(light->inner_cone), outer),
                          .outer_cone = (float)outer,
-                         .world_from_light = without_scale(world) };
+                         .world_from_light = nook_scene_without_scale(world) };
     for (int k = 0; k < 3; k++)
         out->colour[k] = positive(light->colour[k]);
     to->light = scene->light_count++;

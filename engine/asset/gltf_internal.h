@@ -2,6 +2,7 @@
  * gltf_internal.h - inside engine/asset only: the state of one load, and its stages in their order.
  *
  *   source (bytes) -> document (JSON checked) -> buffers, images -> model (tinygltf) -> materials, meshes, nodes
+ *   -> skins, deformables, animations (gltf_motion_internal.h)
  *
  * Every stage logs its one error line itself and leaves what it made so far to nook_gltf_close and nook_scene_destroy.
  */
@@ -41,6 +42,9 @@ typedef struct nook_gltf {
     nook_gltf_model *model;
     uint32_t vertex_capacity, index_capacity; /**< Room in scene->vertices and scene->indices. */
     bool uv_sets_differ_said;                 /**< The warning was given once; it would come for every material. */
+    struct nook_gltf_origin *origins; /**< Per primitive of the scene, where it comes from (gltf_motion_internal.h). */
+    uint32_t *scene_nodes;            /**< Per node of the file, that of the scene or NOOK_NONE. */
+    uint32_t *file_nodes;             /**< Per node of the scene, that of the file. */
 } nook_gltf;
 
 /** Reads the file and finds JSON and BIN in it. @return NOOK_E_NOT_FOUND, NOOK_E_IO, NOOK_E_FORMAT, NOOK_E_VERSION */

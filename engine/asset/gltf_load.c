@@ -1,19 +1,7 @@
 /* nook_scene_load: the order of the stages. */
-#include "engine/asset/gltf_internal.h"
+#include "engine/asset/gltf_motion_internal.h"
 #include "engine/asset/scene_internal.h"
 #include <stdlib.h>
-
-static void count_what_is_not_played(nook_gltf *gltf)
-{
-    nook_scene *scene = gltf->scene;
-    scene->skin_count = gltf->model->skin_count;
-    scene->animation_count = gltf->model->animation_count;
-    if (scene->animation_count)
-        nook_scene_warn(scene, "%s: %u animations are not played yet", gltf->path, scene->animation_count);
-    if (scene->morph_count)
-        nook_scene_warn(scene, "%s: %u primitives have morph targets, which are not played yet", gltf->path,
-                        scene->morph_count);
-}
 
 /* Gives back the room that growing left over: half of it in the worst case. */
 static void trim(nook_scene *scene)
@@ -32,9 +20,9 @@ static nook_result load(nook_gltf *gltf, const nook_scene_options *options)
         (result = nook_gltf_check_accessors(gltf)) ||
         (result = nook_gltf_read_images(gltf, !(options && options->skip_images))) ||
         (result = nook_gltf_convert_materials(gltf)) || (result = nook_gltf_convert_meshes(gltf)) ||
-        (result = nook_gltf_convert_nodes(gltf)))
+        (result = nook_gltf_convert_nodes(gltf)) || (result = nook_gltf_convert_skins(gltf)) ||
+        (result = nook_gltf_convert_deformables(gltf)) || (result = nook_gltf_convert_animations(gltf)))
         return result;
-    count_what_is_not_played(gltf);
     trim(gltf->scene);
     return nook_scene_finish(gltf->scene);
 }

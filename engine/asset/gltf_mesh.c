@@ -1,5 +1,5 @@
 /* Primitives to triangles: which are kept, what their attributes may be, strips and fans expanded. */
-#include "engine/asset/gltf_internal.h"
+#include "engine/asset/gltf_motion_internal.h"
 #include "engine/asset/gltf_vertex_internal.h"
 #include "engine/asset/scene_internal.h"
 #include <stdio.h>
@@ -170,7 +170,11 @@ static nook_result convert_mesh(nook_gltf *gltf, uint32_t index, left_out *left)
         nook_primitive *to = &scene->primitives[scene->primitive_count];
         snprintf(place, sizeof place, "meshes[%u].primitives[%u]", index, p);
         to->material = primitive->material == NOOK_GLTF_NONE ? scene->material_count - 1 : primitive->material;
+        to->flat = primitive->normal == NOOK_GLTF_NONE;
+        gltf->origins[scene->primitive_count].primitive = primitive;
         nook_result result = nook_gltf_check_attributes(gltf, primitive, place);
+        if (result == NOOK_OK)
+            result = nook_gltf_check_deformation(gltf, primitive, place);
         if (result == NOOK_OK)
             result = read_triangles(gltf, primitive, place, to);
         if (result == NOOK_OK)
@@ -179,7 +183,6 @@ static nook_result convert_mesh(nook_gltf *gltf, uint32_t index, left_out *left)
             return result;
         scene->primitive_count++;
         mesh->primitive_count++;
-        scene->morph_count += primitive->target_count > 0;
     }
     return NOOK_OK;
 }
@@ -191,7 +194,8 @@ nook_result nook_gltf_convert_meshes(nook_gltf *gltf)
     uint32_t count = gltf->model->mesh_count;
     scene->meshes = nook_scene_allocate(gltf->path, count, sizeof *scene->meshes);
     scene->primitives = nook_scene_allocate(gltf->path, gltf->model->primitive_count, sizeof *scene->primitives);
-    if (!scene->meshes || !scene->primitives)
+    gltf->origins = nook_scene_allocate(gltf->path, (size_t)gltf->model->primitive_count + 1, sizeof *gltf->origins);
+    if (!scene->meshes || !scene->primitives || !gltf->origins)
         return NOOK_E_MEMORY;
     scene->mesh_count = count;
     for (uint32_t i = 0; i < count; i++) {

@@ -19,10 +19,10 @@ typedef struct traversal {
     nook_matrix *worlds;  /**< Per node of the scene. */
     int *bodies;          /**< Per node of the scene: the nearest nook_body, -1 when there is none. */
     uint32_t *mesh_users; /**< Per mesh, how many nodes draw it. */
-    uint32_t skinned, singular;
+    uint32_t singular;
 } traversal;
 
-static nook_matrix local_matrix(nook_gltf *gltf, uint32_t index)
+static nook_matrix local_matrix(nook_gltf *gltf, uint32_t index, nook_node_rest *rest)
 {
     const nook_gltf_node *node = &gltf->model->nodes[index];
     if (node->has_matrix) {
@@ -33,6 +33,7 @@ static nook_matrix local_matrix(nook_gltf *gltf, uint32_t index)
                             gltf->path, index);
         matrix.m[3] = matrix.m[7] = matrix.m[11] = 0.0;
         matrix.m[15] = 1.0;
+        *rest = (nook_node_rest){ .is_matrix = true, .parent_from_local = matrix };
         return matrix;
     }
     const double *q = node->rotation;
@@ -43,14 +44,18 @@ static nook_matrix local_matrix(nook_gltf *gltf, uint32_t index)
             unit[i] = q[i] / length;
     if (!(fabs(length - 1.0) < 0.01))
         nook_scene_warn(gltf->scene, "%s: nodes[%u].rotation has length %g; normalised", gltf->path, index, length);
-    return nook_matrix_compose(node->translation, unit, node->scale);
+    memcpy(rest->translation, node->translation, sizeof rest->translation);
+    memcpy(rest->rotation, unit, sizeof rest->rotation);
+    memcpy(rest->scale, node->scale, sizeof rest->scale);
+    rest->parent_from_local = nook_matrix_compose(node->translation, unit, node->scale);
+    return rest->parent_from_local;
 }
 
 static nook_result place_node(traversal *t, uint32_t index, uint32_t parent, uint32_t at)
 {
     nook_gltf *gltf = t->gltf;
     const nook_gltf_node *from = &gltf->model->nodes[index];
-    nook_matrix local = local_matrix(gltf, index);
+    nook_matrix local = local_matrix(gltf, index, &gltf->scene->rest[at]);
     t->worlds[at] = parent == NOOK_NONE ? local : nook_matrix_multiply(&t->worlds[parent], &local);
     for (int i = 0; i < 16; i++)
         if (!isfinite(t->worlds[at].m[i]))
@@ -96,11 +101,12 @@ static nook_result convert_node(traversal *t, uint32_t index, uint32_t parent)
     to->name = nook_scene_copy_string(from->name);
     if (!to->name)
         return NOOK_E_MEMORY;
+    t->gltf->scene_nodes[index] = at;
+    t->gltf->file_nodes[at] = index;
     scene->node_count++;
     if (to->skin != NOOK_NONE) {
         to->world_from_local = nook_matrix_identity();
         check_skin(t->gltf, index, from);
-        t->skinned++;
     }
     if (to->mesh != NOOK_NONE) {
         t->mesh_users[to->mesh]++;
@@ -180,8 +186,6 @@ static void choose_bodies(traversal *t)
     if (t->singular)
         nook_scene_warn(scene, "%s: %u nodes draw with a scale of zero: what they draw is flat", t->gltf->path,
                         t->singular);
-    if (t->skinned)
-        nook_scene_warn(scene, "%s: skins are not played yet: %u meshes are drawn unposed", t->gltf->path, t->skinned);
 }
 
 static void free_traversal(traversal *t)
@@ -214,8 +218,13 @@ nook_result nook_gltf_convert_nodes(nook_gltf *gltf)
     t.worlds = nook_scene_allocate(gltf->path, count, sizeof *t.worlds);
     t.bodies = nook_scene_allocate(gltf->path, count, sizeof *t.bodies);
     t.mesh_users = nook_scene_allocate(gltf->path, gltf->model->mesh_count, sizeof *t.mesh_users);
-    bool ready = scene->nodes && scene->cameras && scene->lights && t.stack && t.parents && t.visited && t.worlds &&
-                 t.bodies && t.mesh_users;
+    scene->rest = nook_scene_allocate(gltf->path, count, sizeof *scene->rest);
+    gltf->scene_nodes = nook_scene_allocate(gltf->path, count, sizeof *gltf->scene_nodes);
+    gltf->file_nodes = nook_scene_allocate(gltf->path, count, sizeof *gltf->file_nodes);
+    for (size_t i = 0; gltf->scene_nodes && i < count; i++)
+        gltf->scene_nodes[i] = NOOK_NONE;
+    bool ready = scene->rest && gltf->scene_nodes && gltf->file_nodes && scene->nodes && scene->cameras &&
+                 scene->lights && t.stack && t.parents && t.visited && t.worlds && t.bodies && t.mesh_users;
     nook_result result = ready ? walk(&t) : NOOK_E_MEMORY;
     if (result == NOOK_OK)
         choose_bodies(&t);

@@ -187,15 +187,16 @@ static table skin = {
     STRING("name"),
     END,
 };
-static table channel_target = { REFERENCE("node", "nodes"), STRING("path"), END };
-static table channel = { INTEGER("sampler", 0, INT_LIMIT), NEEDED_OBJECT("target", channel_target), END };
+static table channel_target = { REFERENCE("node", "nodes"), NEEDED_STRING("path"), END };
+static table channel = { NEEDED_INTEGER("sampler", 0, INT_LIMIT), NEEDED_OBJECT("target", channel_target), END };
 static table animation_sampler = {
     NEEDED_REFERENCE("input", "accessors"),
     STRING("interpolation"),
     NEEDED_REFERENCE("output", "accessors"),
     END,
 };
-static table animation = { LIST("channels", channel), LIST("samplers", animation_sampler), STRING("name"), END };
+static table animation = { NEEDED_LIST("channels", channel), NEEDED_LIST("samplers", animation_sampler), STRING("name"),
+                           END };
 
 const nook_gltf_member nook_gltf_schema[] = {
     NEEDED_OBJECT("asset", asset),

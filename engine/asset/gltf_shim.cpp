@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -26,6 +27,11 @@ struct holder {
     std::vector<nook_gltf_light> lights;
     std::vector<uint32_t> texture_images;
     std::vector<uint32_t> children;
+    std::vector<nook_gltf_target> targets;
+    std::vector<nook_gltf_skin> skins;
+    std::vector<nook_gltf_animation> animations;
+    std::vector<nook_gltf_channel> channels;
+    std::vector<nook_gltf_sampler> samplers;
 };
 
 uint32_t reference(int index)
@@ -61,10 +67,10 @@ const tinygltf::Value *extension_of(const tinygltf::ExtensionMap &extensions, co
     return found != extensions.end() && found->second.IsObject() ? &found->second : nullptr;
 }
 
-uint32_t attribute_of(const tinygltf::Primitive &primitive, const char *name)
+uint32_t attribute_of(const std::map<std::string, int> &attributes, const char *name)
 {
-    auto found = primitive.attributes.find(name);
-    return found == primitive.attributes.end() ? NOOK_GLTF_NONE : reference(found->second);
+    auto found = attributes.find(name);
+    return found == attributes.end() ? NOOK_GLTF_NONE : reference(found->second);
 }
 
 nook_gltf_accessor plain_accessor(const tinygltf::Accessor &from)
@@ -75,12 +81,12 @@ nook_gltf_accessor plain_accessor(const tinygltf::Accessor &from)
     to.count = static_cast<uint32_t>(from.count);
     to.component_type = from.componentType;
     to.normalized = from.normalized;
-    bool scalar_or_vector =
-        from.type == TINYGLTF_TYPE_SCALAR || (from.type >= TINYGLTF_TYPE_VEC2 && from.type <= TINYGLTF_TYPE_VEC4);
-    to.components = scalar_or_vector
-                        ? static_cast<uint32_t>(tinygltf::GetNumComponentsInType(static_cast<uint32_t>(from.type)))
-                        : 0;
-    to.has_bounds = to.components && from.minValues.size() == to.components && from.maxValues.size() == to.components;
+    bool known = from.type == TINYGLTF_TYPE_SCALAR || from.type == TINYGLTF_TYPE_MAT4 ||
+                 (from.type >= TINYGLTF_TYPE_VEC2 && from.type <= TINYGLTF_TYPE_VEC4);
+    to.components =
+        known ? static_cast<uint32_t>(tinygltf::GetNumComponentsInType(static_cast<uint32_t>(from.type))) : 0;
+    to.has_bounds = to.components && to.components <= 4 && from.minValues.size() == to.components &&
+                    from.maxValues.size() == to.components;
     if (to.has_bounds) {
         copy_numbers(from.minValues, to.min, to.components);
         copy_numbers(from.maxValues, to.max, to.components);
@@ -96,20 +102,25 @@ nook_gltf_accessor plain_accessor(const tinygltf::Accessor &from)
     return to;
 }
 
-nook_gltf_primitive plain_primitive(const tinygltf::Primitive &from)
+nook_gltf_primitive plain_primitive(holder &h, const tinygltf::Primitive &from)
 {
     nook_gltf_primitive to{};
-    to.position = attribute_of(from, "POSITION");
-    to.normal = attribute_of(from, "NORMAL");
-    to.tangent = attribute_of(from, "TANGENT");
-    to.colour = attribute_of(from, "COLOR_0");
-    to.joints = attribute_of(from, "JOINTS_0");
-    to.texcoord[0] = attribute_of(from, "TEXCOORD_0");
-    to.texcoord[1] = attribute_of(from, "TEXCOORD_1");
+    to.position = attribute_of(from.attributes, "POSITION");
+    to.normal = attribute_of(from.attributes, "NORMAL");
+    to.tangent = attribute_of(from.attributes, "TANGENT");
+    to.colour = attribute_of(from.attributes, "COLOR_0");
+    to.joints = attribute_of(from.attributes, "JOINTS_0");
+    to.weights = attribute_of(from.attributes, "WEIGHTS_0");
+    to.more_joints = attribute_of(from.attributes, "JOINTS_1");
+    to.texcoord[0] = attribute_of(from.attributes, "TEXCOORD_0");
+    to.texcoord[1] = attribute_of(from.attributes, "TEXCOORD_1");
     to.indices = reference(from.indices);
     to.material = reference(from.material);
     to.mode = from.mode < 0 ? 4u : static_cast<uint32_t>(from.mode);
+    to.first_target = static_cast<uint32_t>(h.targets.size());
     to.target_count = static_cast<uint32_t>(from.targets.size());
+    for (const auto &target : from.targets)
+        h.targets.push_back({ attribute_of(target, "POSITION"), attribute_of(target, "NORMAL") });
     return to;
 }
 
@@ -188,6 +199,8 @@ nook_gltf_node plain_node(holder &h, const tinygltf::Node &from)
     copy_numbers(from.scale, to.scale, 3);
     to.body = flag_of(from.extras, "nook_body");
     to.hung = flag_of(from.extras, "nook_hung") == 1;
+    to.weights = from.weights.data();
+    to.weight_count = static_cast<uint32_t>(from.weights.size());
     to.mass = number_of(from.extras, "nook_mass", 0.0);
     return to;
 }
@@ -214,9 +227,10 @@ void convert_geometry(holder &h)
         h.accessors.push_back(plain_accessor(from));
     for (const tinygltf::Mesh &from : h.source.meshes) {
         h.meshes.push_back({ from.name.c_str(), static_cast<uint32_t>(h.primitives.size()),
-                             static_cast<uint32_t>(from.primitives.size()) });
+                             static_cast<uint32_t>(from.primitives.size()), from.weights.data(),
+                             static_cast<uint32_t>(from.weights.size()) });
         for (const tinygltf::Primitive &primitive : from.primitives)
-            h.primitives.push_back(plain_primitive(primitive));
+            h.primitives.push_back(plain_primitive(h, primitive));
     }
 }
 
@@ -240,6 +254,35 @@ void convert_scene(holder &h)
         h.lights.push_back(plain_light(from));
 }
 
+nook_gltf_animation plain_animation(holder &h, const tinygltf::Animation &from)
+{
+    nook_gltf_animation to{};
+    to.name = from.name.c_str();
+    to.first_channel = static_cast<uint32_t>(h.channels.size());
+    to.channel_count = static_cast<uint32_t>(from.channels.size());
+    to.first_sampler = static_cast<uint32_t>(h.samplers.size());
+    to.sampler_count = static_cast<uint32_t>(from.samplers.size());
+    for (const tinygltf::AnimationChannel &channel : from.channels)
+        h.channels.push_back(
+            { reference(channel.sampler), reference(channel.target_node), channel.target_path.c_str() });
+    for (const tinygltf::AnimationSampler &sampler : from.samplers)
+        h.samplers.push_back({ reference(sampler.input), reference(sampler.output), sampler.interpolation.c_str() });
+    return to;
+}
+
+void convert_motion(holder &h)
+{
+    for (const tinygltf::Skin &from : h.source.skins) {
+        nook_gltf_skin to{};
+        to.name = from.name.c_str();
+        to.inverse_bind = reference(from.inverseBindMatrices);
+        append_children(h, from.joints, to.first_joint, to.joint_count);
+        h.skins.push_back(to);
+    }
+    for (const tinygltf::Animation &from : h.source.animations)
+        h.animations.push_back(plain_animation(h, from));
+}
+
 template <class T> void publish(std::vector<T> &from, T *&to, uint32_t &count)
 {
     to = from.data();
@@ -259,9 +302,12 @@ void publish_all(holder &h)
     publish(h.cameras, m.cameras, m.camera_count);
     publish(h.lights, m.lights, m.light_count);
     publish(h.texture_images, m.texture_images, m.texture_count);
+    publish(h.targets, m.targets, m.target_count);
+    publish(h.skins, m.skins, m.skin_count);
+    publish(h.animations, m.animations, m.animation_count);
+    publish(h.channels, m.channels, m.channel_count);
+    publish(h.samplers, m.samplers, m.sampler_count);
     m.children = h.children.data();
-    m.skin_count = static_cast<uint32_t>(h.source.skins.size());
-    m.animation_count = static_cast<uint32_t>(h.source.animations.size());
     m.default_scene = reference(h.source.defaultScene);
 }
 
@@ -314,6 +360,7 @@ extern "C" nook_gltf_model *nook_gltf_model_parse(const char *text, size_t size,
             return fail(message, capacity, error.empty() ? "tinygltf refused it" : error.c_str());
         convert_geometry(*h);
         convert_scene(*h);
+        convert_motion(*h);
         publish_all(*h);
         return &h.release()->plain;
     } catch (const std::exception &e) {

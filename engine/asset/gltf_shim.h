@@ -29,9 +29,9 @@ typedef struct nook_gltf_accessor {
     uint64_t offset;
     uint32_t count;      /**< Elements. */
     int component_type;  /**< GL's enumeration: 5120 byte .. 5126 float. */
-    uint32_t components; /**< 1..4 for SCALAR..VEC4; 0 for matrices. */
+    uint32_t components; /**< 1..4 for SCALAR..VEC4, 16 for MAT4; 0 for smaller matrices. */
     bool normalized;
-    bool has_bounds; /**< min and max hold `components` numbers. */
+    bool has_bounds; /**< min and max hold `components` numbers, at most 4. */
     double min[4], max[4];
     uint32_t sparse_count; /**< 0: not sparse. */
     uint32_t sparse_index_view, sparse_value_view;
@@ -41,16 +41,24 @@ typedef struct nook_gltf_accessor {
 
 /** Accessors of the attributes that Nook reads. */
 typedef struct nook_gltf_primitive {
-    uint32_t position, normal, tangent, colour, joints;
+    uint32_t position, normal, tangent, colour, joints, weights;
+    uint32_t more_joints; /**< JOINTS_1: a vertex with more than four. */
     uint32_t texcoord[2];
     uint32_t indices, material;
-    uint32_t mode; /**< 0 points .. 4 triangles, 5 strip, 6 fan. */
-    uint32_t target_count;
+    uint32_t mode;                       /**< 0 points .. 4 triangles, 5 strip, 6 fan. */
+    uint32_t first_target, target_count; /**< Into model->targets. */
 } nook_gltf_primitive;
+
+/** Accessors of a morph target. */
+typedef struct nook_gltf_target {
+    uint32_t position, normal;
+} nook_gltf_target;
 
 typedef struct nook_gltf_mesh {
     const char *name;
     uint32_t first_primitive, primitive_count;
+    const double *weights; /**< Of morph targets. */
+    uint32_t weight_count;
 } nook_gltf_mesh;
 
 /** A texture as a material uses it, KHR_texture_transform included. */
@@ -75,10 +83,34 @@ typedef struct nook_gltf_node {
     uint32_t first_child, child_count; /**< Into model->children. */
     bool has_matrix;
     double matrix[16], translation[3], rotation[4], scale[3];
-    int body;    /**< extras.nook_body: 1 true, 0 false, -1 not given. */
-    double mass; /**< extras.nook_mass; 0 not given. */
-    bool hung;   /**< extras.nook_hung. */
+    int body;              /**< extras.nook_body: 1 true, 0 false, -1 not given. */
+    double mass;           /**< extras.nook_mass; 0 not given. */
+    bool hung;             /**< extras.nook_hung. */
+    const double *weights; /**< Of morph targets, before the mesh's. */
+    uint32_t weight_count;
 } nook_gltf_node;
+
+typedef struct nook_gltf_skin {
+    const char *name;
+    uint32_t inverse_bind;             /**< Accessor. */
+    uint32_t first_joint, joint_count; /**< Into model->children. */
+} nook_gltf_skin;
+
+typedef struct nook_gltf_sampler {
+    uint32_t input, output; /**< Accessors. */
+    const char *interpolation;
+} nook_gltf_sampler;
+
+typedef struct nook_gltf_channel {
+    uint32_t sampler; /**< Of its animation; not checked. */
+    uint32_t node;
+    const char *path;
+} nook_gltf_channel;
+
+typedef struct nook_gltf_animation {
+    const char *name;
+    uint32_t first_channel, channel_count, first_sampler, sampler_count;
+} nook_gltf_animation;
 
 typedef struct nook_gltf_camera {
     const char *name;
@@ -106,9 +138,15 @@ typedef struct nook_gltf_model {
     nook_gltf_camera *cameras;
     nook_gltf_light *lights;
     uint32_t *texture_images; /**< Per texture, its image or NOOK_GLTF_NONE. */
-    uint32_t *children;       /**< Node indices; nodes and scenes point into it. */
+    uint32_t *children;       /**< Node indices; nodes, scenes and skins point into it. */
+    nook_gltf_target *targets;
+    nook_gltf_skin *skins;
+    nook_gltf_animation *animations;
+    nook_gltf_channel *channels;
+    nook_gltf_sampler *samplers;
     uint32_t view_count, accessor_count, primitive_count, mesh_count, material_count, node_count, scene_count,
-        camera_count, light_count, texture_count, skin_count, animation_count;
+        camera_count, light_count, texture_count, skin_count, animation_count, target_count, channel_count,
+        sampler_count;
     uint32_t default_scene; /**< NOOK_GLTF_NONE when the file names none. */
 } nook_gltf_model;
 

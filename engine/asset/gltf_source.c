@@ -1,5 +1,5 @@
 /* The container: plain JSON text, or GLB with its chunks. Sizes are compared in 64 bits, where nothing wraps. */
-#include "engine/asset/gltf_internal.h"
+#include "engine/asset/gltf_motion_internal.h"
 #include "engine/asset/scene_internal.h"
 #include <stdlib.h>
 #include <string.h>
@@ -110,6 +110,11 @@ void nook_gltf_close(nook_gltf *gltf)
     for (uint32_t i = 0; i < gltf->buffer_count; i++)
         nook_gltf_bytes_free(&gltf->buffers[i]);
     free(gltf->buffers);
+    for (uint32_t i = 0; gltf->origins && i <= gltf->scene->primitive_count; i++) /* the last one was being read */
+        free(gltf->origins[i].source_vertices);
+    free(gltf->origins);
+    free(gltf->scene_nodes);
+    free(gltf->file_nodes);
     nook_gltf_model_free(gltf->model);
     nook_json_tree_free(&gltf->json);
     nook_file_free(&gltf->source.file);

@@ -1,3 +1,4 @@
+#include "engine/asset/gltf_motion_internal.h"
 #include "engine/asset/gltf_vertex_internal.h"
 #include "engine/asset/scene_internal.h"
 #include <cglm/cglm.h>
@@ -139,10 +140,27 @@ static nook_result read_all(nook_gltf *gltf, const nook_gltf_primitive *from, no
     return NOOK_OK;
 }
 
+/* What moves the vertices is read later, and asks where they come from. */
+static nook_result remember_sources(nook_gltf *gltf, const nook_primitive *to)
+{
+    nook_gltf_origin *origin = &gltf->origins[to - gltf->scene->primitives];
+    const uint32_t *indices = gltf->scene->indices + to->first_index;
+    if (origin->primitive->joints == NOOK_GLTF_NONE && origin->primitive->target_count == 0)
+        return NOOK_OK;
+    origin->source_vertices = nook_scene_allocate(gltf->path, to->index_count, sizeof *indices);
+    if (!origin->source_vertices)
+        return NOOK_E_MEMORY;
+    memcpy(origin->source_vertices, indices, to->index_count * sizeof *indices);
+    return NOOK_OK;
+}
+
 /* Gives every corner its own vertex, in place of the shared ones, which are the last of the scene. */
 static nook_result unshare(nook_gltf *gltf, nook_primitive *to)
 {
     nook_scene *scene = gltf->scene;
+    nook_result result = remember_sources(gltf, to);
+    if (result != NOOK_OK)
+        return result;
     nook_vertex *shared = nook_scene_allocate(gltf->path, to->vertex_count, sizeof *shared);
     if (!shared)
         return NOOK_E_MEMORY;
@@ -207,7 +225,8 @@ static bool complete_surface(nook_gltf *gltf, const nook_gltf_primitive *from, c
 static bool same_vertices(const nook_gltf *gltf, const nook_gltf_primitive *a, const nook_gltf_primitive *b)
 {
     return a && a->position == b->position && a->normal == b->normal && a->tangent == b->tangent &&
-           a->colour == b->colour && a->texcoord[0] == b->texcoord[0] && a->texcoord[1] == b->texcoord[1] &&
+           a->colour == b->colour && a->joints == b->joints && a->weights == b->weights && a->target_count == 0 &&
+           b->target_count == 0 && a->texcoord[0] == b->texcoord[0] && a->texcoord[1] == b->texcoord[1] &&
            (a->material == b->material ||
             (!nook_gltf_material_uv_slot(gltf, a->material) && !nook_gltf_material_uv_slot(gltf, b->material)));
 }

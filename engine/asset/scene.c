@@ -182,6 +182,49 @@ nook_result nook_scene_finish(nook_scene *scene)
     return NOOK_OK;
 }
 
+uint32_t nook_scene_deformable_of_node(const nook_scene *scene, uint32_t node)
+{
+    for (uint32_t i = 0; i < scene->deformable_count; i++)
+        if (scene->deformables[i].node == node)
+            return i;
+    return NOOK_NONE;
+}
+
+void nook_scene_forget_motion(nook_scene *scene)
+{
+    for (uint32_t i = 0; i < scene->skin_count; i++)
+        free(scene->skins[i].name);
+    for (uint32_t i = 0; i < scene->clip_count; i++)
+        free(scene->clips[i].name);
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        scene->nodes[i].animated = false;
+        scene->nodes[i].skin = NOOK_NONE;
+    }
+    void *arrays[] = { scene->rest,         scene->skins,        scene->joints,        scene->deformables,
+                       scene->influences,   scene->morph_deltas, scene->morph_weights, scene->joint_boxes,
+                       scene->target_boxes, scene->clips,        scene->tracks,        scene->track_values,
+                       scene->rest_vertices };
+    for (size_t i = 0; i < NOOK_COUNT(arrays); i++)
+        free(arrays[i]);
+    scene->rest = NULL;
+    scene->rest_vertices = NULL;
+    scene->rest_vertex_count = 0;
+    scene->skins = NULL;
+    scene->joints = NULL;
+    scene->deformables = NULL;
+    scene->influences = NULL;
+    scene->morph_deltas = NULL;
+    scene->morph_weights = NULL;
+    scene->joint_boxes = scene->target_boxes = NULL;
+    scene->clips = NULL;
+    scene->tracks = NULL;
+    scene->track_values = NULL;
+    scene->skin_count = scene->joint_count = scene->deformable_count = scene->morph_weight_count = 0;
+    scene->influence_count = scene->morph_delta_count = 0;
+    scene->joint_box_count = scene->target_box_count = 0;
+    scene->clip_count = scene->track_count = scene->track_value_count = 0;
+}
+
 void nook_scene_destroy(nook_scene *scene)
 {
     if (!scene)
@@ -198,6 +241,7 @@ void nook_scene_destroy(nook_scene *scene)
         free(scene->nodes[i].name);
     for (uint32_t i = 0; scene->cameras && i < scene->camera_count; i++)
         free(scene->cameras[i].name);
+    nook_scene_forget_motion(scene);
     for (uint32_t i = 0; i < scene->warning_count; i++)
         free(scene->warnings[i]);
     for (uint32_t i = 0; i < scene->file_count; i++)

@@ -5,6 +5,7 @@
  * Memory    one owner: nook_scene_destroy frees all of it. Everything is constant after loading.
  */
 #pragma once
+#include "engine/asset/scene_motion.h"
 #include "engine/core/matrix.h"
 #include "engine/core/result.h"
 #include <stdbool.h>
@@ -31,6 +32,7 @@ typedef struct nook_primitive {
     uint32_t first_index,
         index_count;   /**< Into scene->indices; a multiple of 3; values are relative to first_vertex. */
     uint32_t material; /**< Into scene->materials; always valid (a default one stands at the end). */
+    bool flat; /**< The file has no normals: each triangle has its own three vertices, in order, and one normal. */
 } nook_primitive;
 
 typedef struct nook_mesh {
@@ -66,16 +68,20 @@ typedef struct nook_node {
     uint32_t parent; /**< NOOK_NONE for a root. Parents stand before their children. */
     uint32_t mesh;   /**< NOOK_NONE for none. */
     uint32_t camera, light;
-    uint32_t skin; /**< NOOK_NONE; a skinned mesh is drawn unposed for now. */
-    /** Composed in double. A skinned mesh's node has the identity: glTF places such a mesh by its joints alone. */
+    uint32_t skin; /**< NOOK_NONE. */
+    /**
+     * Composed in double. As loaded a skinned mesh's node has the identity, and its vertices are not posed: glTF places such a
+     * mesh by its joints alone. engine/animation poses it.
+     */
     nook_matrix world_from_local;
     /**
      * A rigid body: the nearest extras {"nook_body": true or false}, on it or above it, decides; without one, whether
      * its mesh is drawn by several nodes.
      */
     bool moving;
-    double mass; /**< Kilograms, extras {"nook_mass": number}; 0 when it is not given. */
-    bool hung;   /**< extras {"nook_hung": true}: the body hangs on another and does not fall. */
+    double mass;   /**< Kilograms, extras {"nook_mass": number}; 0 when it is not given. */
+    bool hung;     /**< extras {"nook_hung": true}: the body hangs on another and does not fall. */
+    bool animated; /**< A clip moves it or a node above it, or its mesh is a deformable: nothing else may move it. */
 } nook_node;
 
 typedef struct nook_scene_camera {
@@ -116,8 +122,25 @@ typedef struct nook_scene {
     nook_scene_camera *cameras;
     uint32_t camera_count; /**< One per node that has a camera. */
     nook_light *lights;
-    uint32_t light_count;                              /**< One per node that has a light. */
-    uint32_t skin_count, animation_count, morph_count; /**< Present in the file; not played yet (a warning says so). */
+    uint32_t light_count; /**< One per node that has a light. */
+    nook_node_rest *rest; /**< As nodes; NULL in scenes that no file was loaded for. */
+    nook_vertex
+        *rest_vertices; /**< Of deformables; NULL until vertices hold a pose (engine/animation/scene_stand.h). */
+    size_t rest_vertex_count;
+    nook_skin *skins; /* what can move: engine/asset/scene_motion.h */
+    nook_skin_joint *joints;
+    nook_deformable *deformables;
+    nook_influence *influences;
+    size_t influence_count;
+    nook_morph_delta *morph_deltas;
+    size_t morph_delta_count;
+    double *morph_weights;
+    nook_box *joint_boxes, *target_boxes;
+    nook_clip *clips;
+    nook_track *tracks;
+    float *track_values;
+    uint32_t skin_count, joint_count, deformable_count, morph_weight_count, joint_box_count, target_box_count,
+        clip_count, track_count, track_value_count;
     uint64_t triangle_count;             /**< Drawn by the default scene, instances counted, degenerate ones too. */
     double bounds_min[3], bounds_max[3]; /**< World space of all drawn vertices; min > max when nothing is drawn. */
     char **warnings;
@@ -143,6 +166,20 @@ void nook_scene_destroy(nook_scene *scene); /**< NULL is allowed. */
 /** A scene made by code, for tests and fixtures: one mesh, one node, one default material. Copies its inputs. */
 nook_result nook_scene_from_triangles(const char *name, const float *positions, uint32_t vertex_count,
                                       const uint32_t *indices, uint32_t index_count, nook_scene **out_scene);
+
+/** The deformable of a node. @return NOOK_NONE: its mesh keeps its shape */
+uint32_t nook_scene_deformable_of_node(const nook_scene *scene, uint32_t node);
+
+/* For those who change a scene before it is used. */
+
+/** Mesh boxes and the world box, triangle_count, and the checks of what is drawn. @return NOOK_E_FORMAT when too large */
+nook_result nook_scene_finish(nook_scene *scene);
+/** Replaces the normals of these triangles' vertices by those of the faces; the vertices must not be shared. */
+void nook_scene_make_flat_normals(nook_vertex *vertices, uint32_t vertex_count);
+/** The same place and view direction without scale, shear and mirroring: what cameras and lights take of their node. */
+nook_matrix nook_scene_without_scale(const nook_matrix *world_from_local);
+/** Leaves what stands: no skins, deformables and clips, and no node is animated any more. */
+void nook_scene_forget_motion(nook_scene *scene);
 
 #ifdef __cplusplus
 }

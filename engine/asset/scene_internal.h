@@ -1,6 +1,7 @@
 /** scene_internal.h - inside engine/asset only: what all makers of scenes share. */
 #pragma once
 #include "engine/asset/scene.h"
+#include "engine/asset/scene_join.h"
 #include "engine/core/log.h"
 
 /** Logs a warning and keeps its text in the scene. From the 100th on they are neither kept nor logged. */
@@ -18,11 +19,18 @@ void *nook_scene_allocate(const char *path, size_t count, size_t element_size);
 /** Fills the default material of glTF: white, metallic 1, roughness 1, no images. name is left NULL. */
 void nook_scene_default_material(nook_material *out_material);
 
-/** Mesh boxes and the world box, triangle_count, and the checks of what is drawn. @return NOOK_E_FORMAT when too large */
-nook_result nook_scene_finish(nook_scene *scene);
+/**
+ * Room for what moves of the parts whose nodes come, in a joined scene. @param nodes  of the joined scene
+ * @return NOOK_E_MEMORY, logged
+ */
+nook_result nook_scene_allocate_motion(nook_scene *scene, const nook_scene_part *parts, uint32_t count, size_t nodes);
+/**
+ * Appends what moves of one part, whose nodes were appended from `node` on, its meshes from `mesh`, its vertices from `vertex`.
+ * @return NOOK_E_MEMORY, logged
+ */
+nook_result nook_scene_append_motion(nook_scene *to, const nook_scene *from, uint32_t node, uint32_t mesh,
+                                     uint32_t vertex);
 
-/** Replaces the normals of these triangles' vertices by those of the faces; the vertices must not be shared. */
-void nook_scene_make_flat_normals(nook_vertex *vertices, uint32_t vertex_count);
 /**
  * Gives vertices whose normal is zero or not finite the area-weighted mean of their triangles; all others become unit.
  * @return how many were broken

@@ -6,7 +6,7 @@
 
 /* Where the arrays of a part begin in the joined ones. */
 typedef struct offsets {
-    uint32_t primitive, mesh, material, image, node, camera, light, skin;
+    uint32_t primitive, mesh, material, image, node, camera, light, skin, vertex;
 } offsets;
 
 static uint32_t moved(uint32_t index, uint32_t by)
@@ -63,6 +63,8 @@ static nook_result allocate(nook_scene *scene, const nook_scene_part *parts, uin
     scene->nodes = nook_scene_allocate(path, nodes, sizeof *scene->nodes);
     scene->cameras = nook_scene_allocate(path, sum(parts, count, camera_count_of), sizeof *scene->cameras);
     scene->lights = nook_scene_allocate(path, sum(parts, count, light_count_of), sizeof *scene->lights);
+    if (nook_scene_allocate_motion(scene, parts, count, nodes) != NOOK_OK)
+        return NOOK_E_MEMORY;
     bool made = scene->vertices && scene->indices && scene->primitives && scene->meshes && scene->materials &&
                 scene->images && scene->nodes && scene->cameras && scene->lights;
     return made ? NOOK_OK : NOOK_E_MEMORY;
@@ -154,10 +156,7 @@ static nook_result append_nodes(nook_scene *to, const nook_scene *from, const of
     copy(to->lights + to->light_count, from->lights, from->light_count * sizeof *to->lights);
     to->light_count += from->light_count;
     to->file_node_count += from->file_node_count;
-    to->skin_count += from->skin_count;
-    to->animation_count += from->animation_count;
-    to->morph_count += from->morph_count;
-    return NOOK_OK;
+    return nook_scene_append_motion(to, from, at->node, at->mesh, at->vertex);
 }
 
 static nook_result append_files(nook_scene *to, const nook_scene *from)
@@ -177,7 +176,8 @@ static nook_result append_part(nook_scene *to, const nook_scene_part *part, uint
                          .node = to->node_count,
                          .camera = to->camera_count,
                          .light = to->light_count,
-                         .skin = to->skin_count };
+                         .skin = to->skin_count,
+                         .vertex = (uint32_t)to->vertex_count };
     *out_first_mesh = at.mesh;
     append_geometry(to, part->scene, &at);
     nook_result result = append_meshes(to, part->scene, &at);
@@ -205,6 +205,7 @@ static nook_result append_instance(nook_scene *to, const nook_scene_part *part, 
                          .mass = from->mass,
                          .hung = from->hung };
     to->file_node_count++;
+    to->rest[to->node_count] = (nook_node_rest){ .is_matrix = true, .parent_from_local = instance->world_from_local };
     return name(instance->name, &node->name, &to->node_count) ? NOOK_OK : NOOK_E_MEMORY;
 }
 

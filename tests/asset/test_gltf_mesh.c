@@ -272,16 +272,16 @@ static void test_mesh_of_many_nodes_is_stored_once_and_counted_for_each(void **s
     nook_scene_destroy(scene);
 }
 
-static void test_morph_targets_are_counted_and_named_in_a_warning(void **state)
+static void test_a_mesh_with_morph_targets_is_a_deformable(void **state)
 {
     (void)state;
     test_glb glb;
     start_quad(&glb);
     nook_scene *scene = test_glb_must_load(
         &glb, MESH("{ 'attributes': { 'POSITION': 0 }, 'mode': 5, 'targets': [ { 'POSITION': 0 } ] }", ""));
-    assert_int_equal(scene->morph_count, 1);
-    assert_int_equal(scene->warning_count, 1);
-    assert_non_null(strstr(scene->warnings[0], "morph targets, which are not played yet"));
+    assert_int_equal(scene->warning_count, 0);
+    assert_int_equal(scene->deformable_count, 1);
+    assert_int_equal(scene->deformables[0].target_count, 1);
     nook_scene_destroy(scene);
 }
 
@@ -301,7 +301,7 @@ int main(void)
         cmocka_unit_test(test_texture_transform_moves_the_coordinates),
         cmocka_unit_test(test_second_coordinates_are_used_when_the_base_colour_says_so),
         cmocka_unit_test(test_mesh_of_many_nodes_is_stored_once_and_counted_for_each),
-        cmocka_unit_test(test_morph_targets_are_counted_and_named_in_a_warning),
+        cmocka_unit_test(test_a_mesh_with_morph_targets_is_a_deformable),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

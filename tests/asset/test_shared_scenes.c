@@ -131,7 +131,7 @@ static bool check_scene(char *fields[FIELDS], int count)
     check_number(fields[0], "nodes", scene->file_node_count, fields[3]);
     check_number(fields[0], "nodes with a mesh", count_mesh_nodes(scene), fields[4]);
     check_number(fields[0], "skins", scene->skin_count, fields[6]);
-    check_number(fields[0], "animations", scene->animation_count, fields[7]);
+    check_number(fields[0], "animations", scene->clip_count, fields[7]);
     /* The index counts points and lines among the primitives and in the box; we leave them out. */
     if (!strstr(fields[10], "points/lines")) {
         double size = 0.0;

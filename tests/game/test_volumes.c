@@ -40,7 +40,7 @@ static void make_cube(stage *s, uint32_t mesh)
         for (uint32_t axis = 0; axis < 3; axis++)
             s->vertices[mesh * 8 + i].position[axis] = i >> axis & 1 ? 0.5f : -0.5f;
     memcpy(s->indices + mesh * 36, cube, sizeof cube);
-    s->primitives[mesh] = (nook_primitive){ mesh * 8, 8, mesh * 36, 36, OPAQUE };
+    s->primitives[mesh] = (nook_primitive){ mesh * 8, 8, mesh * 36, 36, OPAQUE, false };
     s->meshes[mesh] =
         (nook_mesh){ .name = mesh == 0 ? mesh_name : empty_name, .first_primitive = mesh, .primitive_count = 1 };
 }

@@ -48,7 +48,7 @@ uint32_t test_scene_add_quad(test_scene *s, const float corner[3], const float u
     float n[3] = { u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0] };
     float length = sqrtf(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
     s->primitives[number] =
-        (nook_primitive){ (uint32_t)scene->vertex_count, 4, (uint32_t)scene->index_count, 6, number };
+        (nook_primitive){ (uint32_t)scene->vertex_count, 4, (uint32_t)scene->index_count, 6, number, false };
     for (int i = 0; i < 4; i++) {
         nook_vertex *vertex = &s->vertices[scene->vertex_count++];
         *vertex = (nook_vertex){ .colour = { 1, 1, 1, 1 } };
