@@ -44,14 +44,14 @@ static void loosen(vec4 planes[6], vec3 box[2])
  * taken to the mesh, where the box is upright. Clip space is cglm's but for its depth: of the two planes that it takes from
  * z, w - z is our near plane at any projection with reversed z, and w + z lies behind it.
  */
-static bool box_in_view(const nook_mesh *mesh, const nook_matrix *view_from_mesh, const batch_view *view, double *near,
-                        double *far)
+static bool box_in_view(const nook_box *of_mesh, const nook_matrix *view_from_mesh, const batch_view *view,
+                        double *near, double *far)
 {
     mat4 from_mesh, clip_from_view, clip_from_mesh;
     vec4 planes[6];
     vec3 box[2], box_view[2];
-    memcpy(box[0], mesh->bounds_min, sizeof box[0]);
-    memcpy(box[1], mesh->bounds_max, sizeof box[1]);
+    memcpy(box[0], of_mesh->min, sizeof box[0]);
+    memcpy(box[1], of_mesh->max, sizeof box[1]);
     to_cglm(view_from_mesh, from_mesh);
     to_cglm(&view->clip_from_view, clip_from_view);
     glm_mat4_mul(clip_from_view, from_mesh, clip_from_mesh);
@@ -86,14 +86,15 @@ static bool normal_matrix(const nook_matrix *world_from_mesh, float out[3][4])
 }
 
 /** One draw as an instance. @return false when it is left out */
-static bool make_instance(const nook_mesh *mesh, const nook_draw *draw, const batch_view *view, draw_set *set,
+static bool make_instance(const nook_scene *scene, const nook_draw *draw, const batch_view *view, draw_set *set,
                           instance_data *out, double *out_near)
 {
-    if (mesh->primitive_count == 0 || !(mesh->bounds_min[0] <= mesh->bounds_max[0]))
+    const nook_box box = draw_box(scene, draw);
+    if (scene->meshes[draw->mesh].primitive_count == 0 || !(box.min[0] <= box.max[0]))
         return false;
     nook_matrix view_from_mesh = nook_matrix_multiply(&view->view_from_world, &draw->world_from_local);
     double near = 0.0, far = 0.0;
-    if (view->cull && !box_in_view(mesh, &view_from_mesh, view, &near, &far))
+    if (view->cull && !box_in_view(&box, &view_from_mesh, view, &near, &far))
         return false;
     if (!normal_matrix(&draw->world_from_local, out->world_normal_from_mesh))
         return false;
@@ -203,7 +204,7 @@ nook_result nook_batch(nook_gpu *gpu, const nook_frame *frame, const batch_view 
     for (uint32_t i = 0; i < (uint32_t)count; i++) {
         const nook_draw *draw = &frame->draws[i];
         double near = 0.0;
-        if (!make_instance(&scene->meshes[draw->mesh], draw, view, set, &unsorted[i], &near))
+        if (!make_instance(scene, draw, view, set, &unsorted[i], &near))
             continue;
         kept[kept_count] = (kept_draw){ i, bucket_of(draw), near };
         counts[kept[kept_count++].bucket]++;

@@ -47,6 +47,8 @@ nook_result nook_frame_shadow(nook_renderer *renderer, const nook_frame *frame)
 {
     nook_result result = check(frame);
     if (result == NOOK_OK)
+        nook_pass_deform(frame);
+    if (result == NOOK_OK)
         result = collect_visible(renderer, frame);
     return result == NOOK_OK ? nook_pass_shadow(renderer, frame) : result;
 }

@@ -82,8 +82,19 @@ typedef struct render_material {
     uint32_t image_set;                   /* bits: 1 << UNIT_*_IMAGE of those it has */
 } render_material;
 
+/** What deformables need on the GPU; zero in a scene without them. Their vertices stand one after the other in these. */
+typedef struct render_deform {
+    nook_program program, normals_program;
+    nook_buffer rest, posed;        /* nook_vertex */
+    nook_buffer influences, deltas; /* as in the scene */
+    nook_buffer joints, weights;    /* of the pose */
+    nook_buffer indices, normals;   /* of their primitives, in order */
+    uint32_t version;               /* of the pose that the scene's vertices have; 0: none yet */
+} render_deform;
+
 struct nook_render_scene {
     nook_gpu *gpu;
+    render_deform deform;
     const nook_scene *scene; /* borrowed */
     nook_buffer vertices, indices, triangle_normals;
     nook_buffer materials;            /* one every MATERIAL_STRIDE bytes */
@@ -206,6 +217,23 @@ struct nook_renderer {
 
 /** Makes room for `size` bytes; keeps what is there. @return false: no memory; the list is as it was */
 bool nook_grow(grow_list *list, size_t size);
+
+/** The box of what is drawn, mesh space. */
+static inline nook_box draw_box(const nook_scene *scene, const nook_draw *draw)
+{
+    const nook_mesh *mesh = &scene->meshes[draw->mesh];
+    if (draw->pose_version != 0)
+        return draw->box;
+    return (nook_box){ { mesh->bounds_min[0], mesh->bounds_min[1], mesh->bounds_min[2] },
+                       { mesh->bounds_max[0], mesh->bounds_max[1], mesh->bounds_max[2] } };
+}
+
+/* deform_pass.c */
+/** @return as nook_render_scene_create */
+nook_result nook_deform_create(nook_render_scene *scene);
+void nook_deform_destroy(nook_render_scene *scene);
+/** Puts the vertices of deformables into the frame's pose, unless they are in it. Before all passes that draw. */
+void nook_pass_deform(const nook_frame *frame);
 
 /* targets.c */
 nook_result nook_targets_create(nook_gpu *gpu, uint32_t width, uint32_t height, render_targets *out);

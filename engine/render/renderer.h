@@ -8,6 +8,7 @@
  * See     docs/rendering.md for passes, formats and bindings.
  */
 #pragma once
+#include "engine/animation/scene_pose.h"
 #include "engine/asset/scene.h"
 #include "engine/core/matrix.h"
 #include "engine/core/rectangle.h"
@@ -31,6 +32,8 @@ typedef struct nook_draw {
     uint32_t mesh; /**< Into scene->meshes. */
     bool moves;    /**< It may stand elsewhere in the next frame: tells what is worth keeping of a shadow map. */
     nook_matrix world_from_local; /**< Any affine matrix; a singular one is not drawn. */
+    uint32_t pose_version; /**< Of a deformable: the frame's. 0: the mesh is as the scene has it, and so is its box. */
+    nook_box box;          /**< Of the posed mesh, mesh space; with a pose_version. */
 } nook_draw;
 
 typedef struct nook_camera {
@@ -67,6 +70,8 @@ typedef struct nook_frame {
     const nook_render_scene *scene;
     const nook_draw *draws; /**< In any order; draws of one mesh become one instanced call. */
     size_t draw_count;
+    const nook_mesh_pose *poses; /**< Per deformable of the scene; NULL: vertices are as the scene has them. */
+    uint32_t pose_version;       /**< Another one, not 0, whenever the poses differ from those of the frame before. */
     nook_camera camera;
     const nook_lights *lights;
     bool

@@ -209,6 +209,8 @@ nook_result nook_render_scene_create(nook_gpu *gpu, const nook_scene *scene, noo
         result = upload_geometry(s);
     if (result == NOOK_OK)
         result = upload_materials(s);
+    if (result == NOOK_OK)
+        result = nook_deform_create(s);
     if (result != NOOK_OK) {
         nook_render_scene_destroy(s);
         return result;
@@ -227,6 +229,7 @@ void nook_render_scene_destroy(nook_render_scene *s)
     nook_buffer_destroy(s->gpu, &s->indices);
     nook_buffer_destroy(s->gpu, &s->triangle_normals);
     nook_buffer_destroy(s->gpu, &s->materials);
+    nook_deform_destroy(s);
     free(s->textures);
     free(s->primitives);
     free(s->material_images);

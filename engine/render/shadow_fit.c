@@ -3,12 +3,12 @@
 #include <math.h>
 
 /** Extends a box by that of a mesh. */
-static void add_mesh(const nook_mesh *mesh, const nook_matrix *sun_from_mesh, sun_box *box)
+static void add_mesh(const nook_box *of_mesh, const nook_matrix *sun_from_mesh, sun_box *box)
 {
     for (int i = 0; i < 8; i++) {
         double p[3];
         for (int k = 0; k < 3; k++)
-            p[k] = (i >> k & 1) ? mesh->bounds_max[k] : mesh->bounds_min[k];
+            p[k] = (i >> k & 1) ? of_mesh->max[k] : of_mesh->min[k];
         nook_matrix_apply_point(sun_from_mesh, p, p);
         for (int k = 0; k < 3; k++) {
             box->low[k] = fmin(box->low[k], p[k]);
@@ -22,11 +22,11 @@ static const sun_box empty = { { INFINITY, INFINITY, INFINITY }, { -INFINITY, -I
 /** Extends a box by that of a draw. */
 static void add_draw(const nook_scene *scene, const nook_draw *draw, const nook_matrix *sun_from_world, sun_box *box)
 {
-    const nook_mesh *mesh = &scene->meshes[draw->mesh];
-    if (!(mesh->bounds_min[0] <= mesh->bounds_max[0]))
+    const nook_box of_mesh = draw_box(scene, draw);
+    if (!(of_mesh.min[0] <= of_mesh.max[0]))
         return;
     nook_matrix sun_from_mesh = nook_matrix_multiply(sun_from_world, &draw->world_from_local);
-    add_mesh(mesh, &sun_from_mesh, box);
+    add_mesh(&of_mesh, &sun_from_mesh, box);
 }
 
 static bool is_finite(const sun_box *box)
