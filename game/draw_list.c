@@ -21,6 +21,8 @@ static void collect_draws(const nook_rows *rows)
         nook_draw *draw = &list->items[list->count++];
         draw->mesh = renderables[i].mesh;
         draw->moves = bodies[i].motion == NOOK_MOTION_DYNAMIC;
+        draw->pose_version = 0;
+        draw->box = (nook_box){ { 0 }, { 0 } };
         memcpy(draw->world_from_local.m, transforms[i].world_from_local, sizeof draw->world_from_local.m);
     }
 }

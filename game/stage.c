@@ -30,6 +30,8 @@ static nook_result load_scene(nook_stage *stage, const nook_stage_desc *desc)
     stage->scene = desc->scene;
     if (!stage->scene)
         result = nook_scene_load(desc->scene_path, NULL, &stage->scene);
+    if (result == NOOK_OK && !desc->plays)
+        result = nook_moment_stand_still(stage->scene, &desc->moment);
     if (result != NOOK_OK)
         return result;
     if (stage->scene->triangle_count == 0)
@@ -84,7 +86,7 @@ static uint32_t count_occluders(const nook_scene *scene)
 {
     uint32_t count = 1;
     for (uint32_t i = 0; i < scene->node_count; i++)
-        count += scene->nodes[i].mesh != NOOK_NONE && scene->nodes[i].moving;
+        count += scene->nodes[i].mesh != NOOK_NONE && (scene->nodes[i].moving || scene->nodes[i].animated);
     return count;
 }
 
@@ -108,7 +110,8 @@ static nook_result open_ao(nook_stage *stage)
 
 nook_result nook_stage_open(const nook_stage_desc *desc, nook_stage *out_stage)
 {
-    *out_stage = (nook_stage){ .width = desc->width, .height = desc->height };
+    *out_stage =
+        (nook_stage){ .width = desc->width, .height = desc->height, .moment = desc->moment, .plays = desc->plays };
     nook_result result = load_scene(out_stage, desc);
     if (result == NOOK_OK)
         result = check_size(desc);
@@ -225,10 +228,14 @@ nook_result nook_stage_update(nook_stage *stage, const nook_camera *camera)
     if (result != NOOK_OK)
         return result;
     size_t draw_count;
+    uint32_t pose_version;
     const nook_draw *draws = nook_game_world_draws(stage->world, &draw_count);
+    const nook_mesh_pose *poses = nook_game_world_poses(stage->world, &pose_version);
     stage->frame = (nook_frame){ .scene = stage->render_scene,
                                  .draws = draws,
                                  .draw_count = draw_count,
+                                 .poses = poses,
+                                 .pose_version = pose_version,
                                  .camera = *camera,
                                  .lights = &stage->lights,
                                  .quick = stage->quick,

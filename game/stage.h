@@ -5,6 +5,7 @@
 #include "engine/asset/scene.h"
 #include "engine/platform/context.h"
 #include "engine/render/renderer.h"
+#include "game/moment.h"
 #include "game/progress.h"
 #include "game/world.h"
 #include "modules/ao/nook_ao.h"
@@ -16,6 +17,8 @@ typedef struct nook_stage_desc {
     nook_backend backend;
     bool want_window;       /**< Where there is a display. */
     uint32_t width, height; /**< Of the pictures, pixels. */
+    nook_moment moment;     /**< The pose that the scene stands in, unless it plays. */
+    bool plays; /**< Clips run; else the scene stands still, and its volumes and reference are of its pose. */
 } nook_stage_desc;
 
 /** Members are for reading, unless they say otherwise; the stage owns them. It must stay where it was opened. */
@@ -32,6 +35,8 @@ typedef struct nook_stage {
     nook_frame frame; /**< The last one begun. */
     bool shows;       /**< There is a window, and it is wanted. */
     bool filled;
+    nook_moment moment;           /**< As it was opened; its text is that of who opened it. */
+    bool plays;                   /**< The same. */
     nook_game_world_desc volumes; /**< As it was filled; its text is that of who filled it. */
     uint32_t occluder_max;        /**< Bodies that the AO has room for. */
     bool stop_asked;              /**< Esc or the close button while nook_stage_show looked. */

@@ -159,14 +159,21 @@ static bool usable_matrix(const nook_matrix *matrix)
     return nook_matrix_inverse_affine(matrix, &inverse) != 0;
 }
 
+/* In a scene that plays: what stands still has no deformables any more. */
+static bool deforms(const nook_scene *scene, const nook_node *node)
+{
+    return nook_scene_deformable_of_node(scene, (uint32_t)(node - scene->nodes)) != NOOK_NONE;
+}
+
 static bool is_body(const nook_scene *scene, const nook_node *node)
 {
-    return node->mesh != NOOK_NONE && node->moving && scene->meshes[node->mesh].primitive_count > 0;
+    return node->mesh != NOOK_NONE && (node->moving || node->animated) && !deforms(scene, node) &&
+           scene->meshes[node->mesh].primitive_count > 0;
 }
 
 static bool is_static(const nook_scene *scene, const nook_node *node)
 {
-    return node->mesh != NOOK_NONE && !node->moving && scene->meshes[node->mesh].primitive_count > 0;
+    return node->mesh != NOOK_NONE && !node->moving && !node->animated && scene->meshes[node->mesh].primitive_count > 0;
 }
 
 static void name_mesh(const nook_scene *scene, const nook_node *node, char out[NAME_CAPACITY])
@@ -371,6 +378,9 @@ nook_result nook_volumes_bake(const nook_scene *scene, const nook_volumes_desc *
         return nook_fail(NOOK_E_RANGE, "bake: resolution %u; choose 1 to %u", resolution, NOOK_VOXELIZE_RESOLUTION_MAX);
     if (!isfinite(desc->r_max) || desc->r_max < 0.0)
         return nook_fail(NOOK_E_RANGE, "bake: r_max %g; choose a length in metres above 0", desc->r_max);
+    if (scene->deformable_count > 0)
+        nook_log_warning("%s: %u meshes change their shape while they play: they have no volume, and darken nothing",
+                         scene->path, scene->deformable_count);
     if (desc->must_keep && nook_directory_make(desc->cache_dir) != NOOK_OK)
         return NOOK_E_IO; /* before the work */
     nook_scene_volumes volumes = { .r_max = desc->r_max > 0.0 ? desc->r_max : nook_volumes_default_r_max(scene) };

@@ -1,5 +1,6 @@
 #include "game/world.h"
 #include "engine/core/log.h"
+#include "game/animation.h"
 #include "game/draw_list.h"
 #include "game/progress.h"
 #include "game/volumes.h"
@@ -14,6 +15,8 @@ struct nook_game_world {
     nook_world *entities;
     nook_entity *of_node; /* scene->node_count of them */
     nook_components components;
+    nook_scene_pose *pose;        /* NULL when nothing is animated */
+    uint32_t *deformable_of_mesh; /* NOOK_NONE for most; with a pose */
     nook_draw *draws;
     nook_ao_occluder *occluders;
     nook_world_volume *volumes;
@@ -98,7 +101,8 @@ static nook_result make_nodes(nook_game_world *world)
         const nook_node *node = &world->scene->nodes[i];
         if (node->mesh == NOOK_NONE)
             continue;
-        nook_result result = make_body(world, &node->world_from_local, node->moving, &world->of_node[i]);
+        nook_result result =
+            make_body(world, &node->world_from_local, node->moving || node->animated, &world->of_node[i]);
         const nook_renderable renderable = { node->mesh, i };
         if (result == NOOK_OK)
             result = nook_entity_add(world->entities, world->of_node[i], world->components.renderable, &renderable);
@@ -149,6 +153,25 @@ static nook_result fill(nook_game_world *world, nook_scene_volumes *baked)
     return result;
 }
 
+/* Clips run from here on, if there are any. */
+static nook_result set_up_animation(nook_game_world *world)
+{
+    const nook_scene *scene = world->scene;
+    if (!scene->rest || (scene->clip_count == 0 && scene->deformable_count == 0))
+        return NOOK_OK;
+    nook_result result = nook_scene_pose_create(scene, &world->pose);
+    if (result != NOOK_OK)
+        return result;
+    world->deformable_of_mesh = malloc((scene->mesh_count + (size_t)1) * sizeof *world->deformable_of_mesh);
+    if (!world->deformable_of_mesh)
+        return nook_fail(NOOK_E_MEMORY, "%s: no memory for what it deforms", scene->path);
+    for (uint32_t i = 0; i < scene->mesh_count; i++)
+        world->deformable_of_mesh[i] = NOOK_NONE;
+    for (uint32_t i = 0; i < scene->deformable_count; i++)
+        world->deformable_of_mesh[scene->deformables[i].mesh] = i;
+    return nook_animations_set_up(world->entities, world->pose);
+}
+
 /* The ECS world with its components, and what is drawn of it. */
 static nook_result set_up(nook_game_world *world)
 {
@@ -161,6 +184,8 @@ static nook_result set_up(nook_game_world *world)
     if (!world->draws || !world->of_node)
         return nook_fail(NOOK_E_MEMORY, "%s: no memory for its entities", world->scene->path);
     result = nook_components_register(world->entities, &world->components);
+    if (result == NOOK_OK)
+        result = set_up_animation(world);
     if (result == NOOK_OK)
         result = nook_draw_list_set_up(world->entities, world->draws, count);
     return result == NOOK_OK ? make_nodes(world) : result;
@@ -207,6 +232,8 @@ void nook_game_world_destroy(nook_game_world *world)
         nook_ao_remove_mesh(world->ao, world->uploaded[i].mesh);
     }
     nook_world_destroy(world->entities);
+    nook_scene_pose_destroy(world->pose);
+    free(world->deformable_of_mesh);
     free(world->of_node);
     free(world->draws);
     free(world->occluders);
@@ -234,9 +261,39 @@ nook_entity nook_game_world_entity_of_node(const nook_game_world *world, uint32_
 nook_result nook_game_world_renew(nook_game_world *world)
 {
     nook_result result = nook_draw_list_renew(world->entities);
+    if (result == NOOK_OK && world->pose)
+        result = nook_animations_renew(world->entities);
     if (result == NOOK_OK && world->ao)
         result = nook_occluders_renew(world->entities);
     return result;
+}
+
+/* Draws of deformables are told their pose, and the box that follows from it. */
+static void pose_draws(nook_game_world *world)
+{
+    size_t count;
+    const nook_animated_scene *animated = nook_animations_of(world->entities);
+    nook_game_world_draws(world, &count);
+    for (size_t i = 0; i < count; i++) {
+        nook_draw *draw = &world->draws[i];
+        uint32_t deformable = world->deformable_of_mesh[draw->mesh];
+        if (deformable == NOOK_NONE)
+            continue;
+        draw->pose_version = animated->version;
+        draw->box = world->pose->meshes[deformable].box;
+    }
+}
+
+void nook_game_world_advance(nook_game_world *world, double seconds)
+{
+    if (world->pose)
+        nook_animations_of(world->entities)->step += seconds;
+}
+
+const nook_mesh_pose *nook_game_world_poses(const nook_game_world *world, uint32_t *out_version)
+{
+    *out_version = world->pose ? nook_animations_of(world->entities)->version : 0;
+    return world->pose ? world->pose->meshes : NULL;
 }
 
 nook_result nook_game_world_update(nook_game_world *world, nook_ao *ao)
@@ -246,6 +303,8 @@ nook_result nook_game_world_update(nook_game_world *world, nook_ao *ao)
         result = nook_world_run_phase(world->entities, NOOK_PHASE_PRE_RENDER);
     if (result != NOOK_OK)
         return result;
+    if (world->pose)
+        pose_draws(world);
     const nook_type type = NOOK_TYPE(nook_occluder_list);
     const nook_occluder_list *list = nook_world_resource(world->entities, &type);
     if (!list)

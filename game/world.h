@@ -65,6 +65,11 @@ nook_result nook_game_world_renew(nook_game_world *world);
 /** Runs one frame's systems and submits the occluders they collected. @return NOOK_E_MEMORY, NOOK_E_ARG */
 nook_result nook_game_world_update(nook_game_world *world, nook_ao *ao);
 
+/** Seconds that pass for what is animated with the next update; calls before it add up. Backwards below 0. */
+void nook_game_world_advance(nook_game_world *world, double seconds);
+/** Of the scene's deformables, and their version, as in nook_frame; NULL where nothing is animated. */
+const nook_mesh_pose *nook_game_world_poses(const nook_game_world *world, uint32_t *out_version);
+
 /** What the last update collected; valid until the next. */
 const nook_draw *nook_game_world_draws(const nook_game_world *world, size_t *out_count);
 /** What it submitted to the AO; valid until the next. */

@@ -1,5 +1,6 @@
 #include "engine/core/log.h"
 #include "game/commands/commands.h"
+#include "game/moment.h"
 #include "game/option_rows.h"
 #include "game/settings/settings_file.h"
 #include "game/volumes.h"
@@ -69,7 +70,9 @@ static int bake_file(const char *path, const nook_volumes_desc *desc)
     const nook_scene_options geometry = { .skip_images = true };
     if (nook_scene_load(path, &geometry, &scene) != NOOK_OK)
         return NOOK_EXIT_FAILED;
-    nook_result result = nook_volumes_bake(scene, desc, &volumes);
+    nook_result result = nook_moment_stand_still(scene, &(nook_moment){ .clip = NULL });
+    if (result == NOOK_OK)
+        result = nook_volumes_bake(scene, desc, &volumes);
     bool drawn = scene->triangle_count > 0; /* else the loader has said so */
     nook_scene_destroy(scene);
     if (result != NOOK_OK)

@@ -133,6 +133,7 @@ int nook_command_compare(const nook_app *app, int argc, char **argv)
                                    .scene_path = options.scene,
                                    .backend = options.backend,
                                    .want_window = !options.no_window,
+                                   .moment = options.moment,
                                    .width = (uint32_t)options.size.width,
                                    .height = (uint32_t)options.size.height };
     nook_stage stage;

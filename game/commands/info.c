@@ -60,6 +60,28 @@ static void print_cameras(const nook_scene *scene)
                scene->cameras[i].perspective ? "" : " (orthographic: compare cannot use it)");
 }
 
+/* One line each: what --clip takes. */
+static void print_clips(const nook_scene *scene)
+{
+    for (uint32_t i = 0; i < scene->clip_count; i++)
+        printf("%-12s %.6g s, %u tracks, %s\n", "clip", scene->clips[i].duration, scene->clips[i].track_count,
+               *scene->clips[i].name ? scene->clips[i].name : "without a name");
+}
+
+static void add_clips(nook_json *json, const nook_scene *scene)
+{
+    nook_json_key(json, "clips");
+    nook_json_begin_array(json);
+    for (uint32_t i = 0; i < scene->clip_count; i++) {
+        nook_json_begin_object(json);
+        nook_json_member_string(json, "name", scene->clips[i].name);
+        nook_json_member_number(json, "seconds", scene->clips[i].duration);
+        nook_json_member_integer(json, "tracks", scene->clips[i].track_count);
+        nook_json_end_object(json);
+    }
+    nook_json_end_array(json);
+}
+
 static void add_lights_and_cameras(nook_json *json, const nook_scene *scene)
 {
     uint32_t counts[NOOK_COUNT(light_kinds)];
@@ -92,6 +114,7 @@ static int print_scene_json(const nook_scene *scene, const fact *facts, size_t f
     for (size_t i = 0; i < fact_count; i++)
         nook_json_member_integer(&json, facts[i].name, (int64_t)facts[i].value);
     add_lights_and_cameras(&json, scene);
+    add_clips(&json, scene);
     nook_json_key(&json, "bounds_min");
     empty ? nook_json_null(&json) : nook_json_numbers(&json, scene->bounds_min, 3);
     nook_json_key(&json, "bounds_max");
@@ -119,7 +142,8 @@ static int print_scene(const nook_scene *scene, bool as_json)
         { "lights", scene->light_count },
         { "cameras", scene->camera_count },
         { "skins", scene->skin_count },
-        { "animations", scene->animation_count },
+        { "animations", scene->clip_count },
+        { "deformables", scene->deformable_count },
         { "bodies", count_bodies(scene) },
     };
     bool empty = scene->bounds_min[0] > scene->bounds_max[0];
@@ -130,6 +154,7 @@ static int print_scene(const nook_scene *scene, bool as_json)
         printf("%-12s %" PRIu64 "\n", facts[i].name, facts[i].value);
     print_lights(scene);
     print_cameras(scene);
+    print_clips(scene);
     if (empty) {
         printf("%-12s %s\n", "bounds", "nothing is drawn");
     } else {

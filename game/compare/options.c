@@ -1,6 +1,8 @@
 #include "game/compare/options.h"
 #include "engine/core/result.h"
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* The names that ao.scale knows, and the other ways to say them. */
@@ -18,6 +20,18 @@ static bool read_scale(void *target, const char *text)
         }
     }
     return false;
+}
+
+static bool read_time(void *target, const char *text)
+{
+    nook_moment *moment = target;
+    char *end;
+    double seconds = strtod(text, &end);
+    if (end == text || *end || !isfinite(seconds))
+        return false;
+    moment->seconds = seconds;
+    moment->timed = true;
+    return true;
 }
 
 static bool read_views(void *target, const char *text)
@@ -48,6 +62,18 @@ bool nook_compare_options_read(const nook_app *app, int argc, char **argv, nook_
           .placeholder = "NAME|p,t,fov",
           .help = "a camera of the scene (./nook info SCENE names them), or px,py,pz,tx,ty,tz,fov: eye, target,\n"
                   "                             degrees; default: the scene's first" },
+        { .name = "time",
+          .kind = NOOK_OPTION_CUSTOM,
+          .target = &out->moment,
+          .placeholder = "S",
+          .read = read_time,
+          .expects = "seconds",
+          .help = "poses the scene at this time of its clip, volumes and reference too; default: at rest" },
+        { .name = "clip",
+          .kind = NOOK_OPTION_TEXT,
+          .target = &out->moment.clip,
+          .placeholder = "NAME",
+          .help = "which clip --time is of (./nook info SCENE names them); default: the first" },
         nook_option_row_size(&out->size, "of the pictures in pixels; default 960x540"),
         nook_option_row_r_max(&out->r_max, nook_option_r_max_help),
         nook_option_row_falloff(&out->falloff),

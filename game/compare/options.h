@@ -1,5 +1,6 @@
 #pragma once
 #include "game/compare/views.h"
+#include "game/moment.h"
 #include "game/option_rows.h"
 #include "game/settings/settings_file.h"
 
@@ -7,6 +8,7 @@
 typedef struct nook_compare_options {
     const char *scene;
     const char *camera; /**< Name or seven numbers; NULL: chosen (game/compare/camera.h). */
+    nook_moment moment; /**< The pose of what moves. */
     nook_option_size size;
     double r_max;            /**< Metres; 0: a tenth of the diagonal of the scene's box. */
     const char *settings;    /**< A settings file; NULL: none. What other options say counts more. */

@@ -146,6 +146,11 @@ static void write_all(nook_json *json, const nook_report *report)
     const double size[] = { comparison->width, comparison->height };
     nook_json_begin_object(json);
     nook_json_member_string(json, "scene", report->scene_path);
+    if (report->stage->moment.timed || report->stage->moment.clip) {
+        if (report->stage->moment.clip)
+            nook_json_member_string(json, "clip", report->stage->moment.clip);
+        nook_json_member_number(json, "time", report->stage->moment.seconds);
+    }
     nook_json_key(json, "size");
     nook_json_numbers(json, size, 2);
     write_camera(json, report);

@@ -1,4 +1,5 @@
 /* A level made of a glTF file: where to stand in it, whether it needs a floor, and what of it can be moved. */
+#include "engine/animation/scene_stand.h"
 #include "engine/core/file.h"
 #include "engine/core/log.h"
 #include "engine/core/vector.h"
@@ -26,6 +27,8 @@ static nook_result open_model(const char *path, probed *out)
     const nook_scene_options geometry = { .skip_images = true };
     *out = (probed){ NULL, NULL };
     nook_result result = nook_scene_load(path, &geometry, &out->scene);
+    if (result == NOOK_OK)
+        result = nook_scene_stand_still(out->scene, NOOK_NONE, 0.0);
     if (result != NOOK_OK)
         return result;
     if (out->scene->triangle_count == 0)

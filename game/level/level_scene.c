@@ -1,4 +1,5 @@
 #include "game/level/level_scene.h"
+#include "engine/animation/scene_stand.h"
 #include "engine/asset/scene_join.h"
 #include "engine/core/log.h"
 #include "engine/core/rotation.h"
@@ -85,6 +86,9 @@ static nook_result check_node(const loading *l, const nook_level_entity *entity,
     if (scene->nodes[index].mesh == NOOK_NONE)
         return nook_fail(NOOK_E_FORMAT, "%s:%u: %s: the node %s of %s draws nothing", l->level->path, entity->line,
                          entity->name, scene->nodes[index].name, scene->path);
+    if (scene->nodes[index].animated)
+        return nook_fail(NOOK_E_FORMAT, "%s:%u: %s: the node %s of %s is moved by an animation; leave it to that",
+                         l->level->path, entity->line, entity->name, scene->nodes[index].name, scene->path);
     for (uint32_t i = index + 1; i < scene->node_count; i++) {
         if (scene->nodes[i].parent == index && scene->nodes[i].mesh != NOOK_NONE)
             return nook_fail(NOOK_E_FORMAT,
@@ -209,7 +213,7 @@ static void loosen(loading *l)
         nook_scene *scene = l->parts[p].scene;
         for (uint32_t i = 0; i < scene->node_count; i++) {
             nook_node *node = &scene->nodes[i];
-            if (node->mesh != NOOK_NONE && longest_side(scene, node) <= l->level->loose_longest)
+            if (node->mesh != NOOK_NONE && !node->animated && longest_side(scene, node) <= l->level->loose_longest)
                 node->moving = true;
         }
     }
@@ -227,6 +231,10 @@ nook_result nook_level_scene_load(const nook_level *level, const nook_scene_opti
     if (result == NOOK_OK) {
         loosen(&l);
         result = nook_scene_join(level->path, l.parts, l.part_count, l.instances, l.instance_count, out_scene);
+    }
+    if (result == NOOK_OK && (result = nook_scene_stand(*out_scene, NOOK_NONE, 0.0)) != NOOK_OK) {
+        nook_scene_destroy(*out_scene);
+        *out_scene = NULL;
     }
     for (uint32_t i = 0; i < l.part_count; i++)
         nook_scene_destroy(l.parts[i].scene);

@@ -39,11 +39,17 @@ static nook_result check_images(const nook_scene_loading *load)
     return nook_fail(NOOK_E_FORMAT, "%s: the picture stays as it was", last);
 }
 
+static nook_result read_file(nook_scene_loading *load)
+{
+    nook_result result = nook_scene_load(load->path, NULL, &load->loaded.scene);
+    return result == NOOK_OK ? nook_moment_stand_still(load->loaded.scene, &load->desc.moment) : result;
+}
+
 static nook_result read_scene(nook_scene_loading *load)
 {
     nook_loaded_scene *loaded = &load->loaded;
     if (!load->desc.is_level)
-        return nook_scene_load(load->path, NULL, &loaded->scene);
+        return read_file(load);
     nook_result result = nook_level_read(load->path, &loaded->level);
     return result == NOOK_OK ? nook_level_scene_load(loaded->level, NULL, &loaded->scene) : result;
 }

@@ -4,6 +4,7 @@
 #pragma once
 #include "engine/asset/scene.h"
 #include "game/level/level.h"
+#include "game/moment.h"
 #include "game/volumes.h"
 
 typedef struct nook_scene_loading nook_scene_loading;
@@ -11,6 +12,7 @@ typedef struct nook_scene_loading nook_scene_loading;
 typedef struct nook_scene_loading_desc {
     const char *path;         /**< .level, .gltf or .glb. */
     bool is_level;            /**< The scene is joined of what a level names. */
+    nook_moment moment;       /**< The pose of a scene that is one file. */
     uint32_t resolution;      /**< As nook_game_world_desc. */
     double r_max;             /**< The same. */
     const char *cache;        /**< The same; volumes of meshes that are as they were come from it. */

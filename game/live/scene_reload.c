@@ -218,6 +218,7 @@ static void start_load(nook_scene_reload *self)
 {
     const nook_scene_loading_desc desc = { .path = self->is_level ? self->level : self->stage->scene->path,
                                            .is_level = self->is_level,
+                                           .moment = self->stage->moment,
                                            .resolution = self->volumes.resolution,
                                            .r_max = self->volumes.r_max,
                                            .cache = self->volumes.cache,

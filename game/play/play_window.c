@@ -39,6 +39,7 @@ static nook_result open_stage(nook_play_window *w, const char *root, const nook_
                                     .scene = nook_play_take_scene(&w->play),
                                     .backend = desc->backend,
                                     .want_window = !desc->no_window,
+                                    .plays = true,
                                     .width = desc->width,
                                     .height = desc->height };
     nook_result result = nook_stage_open(&stage, &w->stage);

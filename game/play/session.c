@@ -116,9 +116,18 @@ nook_result nook_session_tick(nook_session *session, const nook_play_input *inpu
 
 /* ---- To be seen -------------------------------------------------------------------------------------------------- */
 
+/* Clips run with the ticks, between them too, and begin again with a try. */
+static void advance_clips(nook_session *s, double alpha)
+{
+    double now = s->ticks > 0 ? ((double)(s->ticks - 1) + alpha) * NOOK_PHYSICS_STEP : 0.0;
+    nook_game_world_advance(s->desc.world, now - s->placed_at);
+    s->placed_at = now;
+}
+
 void nook_session_place(nook_session *session, double alpha)
 {
     nook_world *world = nook_game_world_entities(session->desc.world);
+    advance_clips(session, alpha);
     nook_query_walk walk = nook_query_begin(world, session->query);
     while (nook_query_next(&walk)) {
         const nook_played *played = walk.columns[0];

@@ -64,6 +64,7 @@ struct nook_session {
     uint16_t was_buttons;
     nook_session_status status;
     uint64_t ticks, end_tick; /**< end_tick: when it was won or lost. */
+    double placed_at;         /**< Seconds that its clips have run for, when nook_session_place was last called. */
     uint32_t looked_at;       /**< Into things, or NOOK_NONE. */
     uint32_t open;            /**< Locks that were open after the last tick. */
     uint32_t returned;        /**< Bodies that were brought back in this try. */

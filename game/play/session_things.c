@@ -25,7 +25,7 @@ static uint32_t entity_of_node(const nook_level *level, const char *name)
 static nook_body_motion motion_of(const nook_node *node, const nook_level_entity *entity)
 {
     if (!entity) /* what hangs on another would need a joint to fall with; it stays where it hangs */
-        return node->moving && !node->hung ? NOOK_BODY_DYNAMIC : NOOK_BODY_STATIC;
+        return node->moving && !node->hung && !node->animated ? NOOK_BODY_DYNAMIC : NOOK_BODY_STATIC;
     if (entity->kind == NOOK_LEVEL_BODY)
         return NOOK_BODY_DYNAMIC;
     return entity->kind == NOOK_LEVEL_MOVER || entity->kind == NOOK_LEVEL_SPINNER ? NOOK_BODY_KINEMATIC
