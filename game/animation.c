@@ -58,33 +58,48 @@ static void place_nodes(const nook_rows *rows)
     }
 }
 
-/* In their order. */
-static const nook_system systems[] = {
-    { .name = "animation.advance",
-      .phase = NOOK_PHASE_UPDATE,
-      .writes = { NOOK_TYPE(nook_animation) },
-      .resources_read = { NOOK_TYPE(nook_animated_scene) },
-      .run = advance },
-    { .name = "animation.begin_pose",
-      .phase = NOOK_PHASE_PRE_RENDER,
-      .resources = { NOOK_TYPE(nook_animated_scene) },
-      .run = begin_pose },
-    { .name = "animation.apply_clips",
-      .phase = NOOK_PHASE_PRE_RENDER,
-      .reads = { NOOK_TYPE(nook_animation) },
-      .resources = { NOOK_TYPE(nook_animated_scene) },
-      .run = apply_clips },
-    { .name = "animation.finish_pose",
-      .phase = NOOK_PHASE_PRE_RENDER,
-      .resources = { NOOK_TYPE(nook_animated_scene) },
-      .run = finish_pose },
-    { .name = "animation.place_nodes",
-      .phase = NOOK_PHASE_PRE_RENDER,
-      .reads = { NOOK_TYPE(nook_renderable) },
-      .writes = { NOOK_TYPE(nook_transform) },
-      .resources_read = { NOOK_TYPE(nook_animated_scene) },
-      .run = place_nodes },
+static const nook_system advance_system = {
+    .name = "animation.advance",
+    .phase = NOOK_PHASE_UPDATE,
+    .writes = { NOOK_TYPE(nook_animation) },
+    .resources_read = { NOOK_TYPE(nook_animated_scene) },
+    .run = advance,
 };
+
+static const nook_system begin_pose_system = {
+    .name = "animation.begin_pose",
+    .phase = NOOK_PHASE_PRE_RENDER,
+    .resources = { NOOK_TYPE(nook_animated_scene) },
+    .run = begin_pose,
+};
+
+static const nook_system apply_clips_system = {
+    .name = "animation.apply_clips",
+    .phase = NOOK_PHASE_PRE_RENDER,
+    .reads = { NOOK_TYPE(nook_animation) },
+    .resources = { NOOK_TYPE(nook_animated_scene) },
+    .run = apply_clips,
+};
+
+static const nook_system finish_pose_system = {
+    .name = "animation.finish_pose",
+    .phase = NOOK_PHASE_PRE_RENDER,
+    .resources = { NOOK_TYPE(nook_animated_scene) },
+    .run = finish_pose,
+};
+
+static const nook_system place_nodes_system = {
+    .name = "animation.place_nodes",
+    .phase = NOOK_PHASE_PRE_RENDER,
+    .reads = { NOOK_TYPE(nook_renderable) },
+    .writes = { NOOK_TYPE(nook_transform) },
+    .resources_read = { NOOK_TYPE(nook_animated_scene) },
+    .run = place_nodes,
+};
+
+/* In their order. */
+static const nook_system *const systems[] = { &advance_system, &begin_pose_system, &apply_clips_system,
+                                              &finish_pose_system, &place_nodes_system };
 
 /* ---- Entities ---------------------------------------------------------------------------------------------------- */
 
@@ -128,7 +143,7 @@ nook_result nook_animations_set_up(nook_world *world, nook_scene_pose *pose)
     if (result == NOOK_OK)
         result = nook_world_set_resource(world, &type, &scene);
     for (size_t i = 0; i < NOOK_COUNT(systems) && result == NOOK_OK; i++)
-        result = nook_world_add_system(world, &systems[i]);
+        result = nook_world_add_system(world, systems[i]);
     return result == NOOK_OK ? make_actors(world, pose->scene, animation) : result;
 }
 
@@ -136,7 +151,7 @@ nook_result nook_animations_renew(nook_world *world)
 {
     nook_result result = NOOK_OK;
     for (size_t i = 0; i < NOOK_COUNT(systems) && result == NOOK_OK; i++)
-        result = nook_world_replace_system(world, &systems[i]);
+        result = nook_world_replace_system(world, systems[i]);
     return result;
 }
 

@@ -35,7 +35,7 @@ nook_result nook_moment_clip(const nook_scene *scene, const nook_moment *moment,
 
 nook_result nook_moment_stand_still(nook_scene *scene, const nook_moment *moment)
 {
-    uint32_t clip;
+    uint32_t clip = NOOK_NONE;
     nook_result result = nook_moment_clip(scene, moment, &clip);
     return result == NOOK_OK ? nook_scene_stand_still(scene, clip, moment->seconds) : result;
 }

@@ -196,7 +196,7 @@ void nook_scene_forget_motion(nook_scene *scene)
         free(scene->skins[i].name);
     for (uint32_t i = 0; i < scene->clip_count; i++)
         free(scene->clips[i].name);
-    for (uint32_t i = 0; i < scene->node_count; i++) {
+    for (uint32_t i = 0; scene->nodes && i < scene->node_count; i++) {
         scene->nodes[i].animated = false;
         scene->nodes[i].skin = NOOK_NONE;
     }

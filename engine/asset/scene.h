@@ -123,6 +123,8 @@ typedef struct nook_scene {
     uint32_t camera_count; /**< One per node that has a camera. */
     nook_light *lights;
     uint32_t light_count; /**< One per node that has a light. */
+    uint32_t skin_count, joint_count, deformable_count, morph_weight_count, joint_box_count, target_box_count,
+        clip_count, track_count, track_value_count;
     nook_node_rest *rest; /**< As nodes; NULL in scenes that no file was loaded for. */
     nook_vertex
         *rest_vertices; /**< Of deformables; NULL until vertices hold a pose (engine/animation/scene_stand.h). */
@@ -139,8 +141,6 @@ typedef struct nook_scene {
     nook_clip *clips;
     nook_track *tracks;
     float *track_values;
-    uint32_t skin_count, joint_count, deformable_count, morph_weight_count, joint_box_count, target_box_count,
-        clip_count, track_count, track_value_count;
     uint64_t triangle_count;             /**< Drawn by the default scene, instances counted, degenerate ones too. */
     double bounds_min[3], bounds_max[3]; /**< World space of all drawn vertices; min > max when nothing is drawn. */
     char **warnings;

@@ -18,6 +18,17 @@ bool nook_grow(grow_list *list, size_t size)
     return true;
 }
 
+nook_box nook_draw_box(const nook_scene *scene, const nook_draw *draw)
+{
+    const nook_mesh *mesh = &scene->meshes[draw->mesh];
+    nook_box box = draw->box;
+    if (draw->pose_version == 0) {
+        memcpy(box.min, mesh->bounds_min, sizeof box.min);
+        memcpy(box.max, mesh->bounds_max, sizeof box.max);
+    }
+    return box;
+}
+
 static void to_cglm(const nook_matrix *a, mat4 out)
 {
     for (int column = 0; column < 4; column++) {
@@ -89,7 +100,7 @@ static bool normal_matrix(const nook_matrix *world_from_mesh, float out[3][4])
 static bool make_instance(const nook_scene *scene, const nook_draw *draw, const batch_view *view, draw_set *set,
                           instance_data *out, double *out_near)
 {
-    const nook_box box = draw_box(scene, draw);
+    const nook_box box = nook_draw_box(scene, draw);
     if (scene->meshes[draw->mesh].primitive_count == 0 || !(box.min[0] <= box.max[0]))
         return false;
     nook_matrix view_from_mesh = nook_matrix_multiply(&view->view_from_world, &draw->world_from_local);

@@ -218,16 +218,6 @@ struct nook_renderer {
 /** Makes room for `size` bytes; keeps what is there. @return false: no memory; the list is as it was */
 bool nook_grow(grow_list *list, size_t size);
 
-/** The box of what is drawn, mesh space. */
-static inline nook_box draw_box(const nook_scene *scene, const nook_draw *draw)
-{
-    const nook_mesh *mesh = &scene->meshes[draw->mesh];
-    if (draw->pose_version != 0)
-        return draw->box;
-    return (nook_box){ { mesh->bounds_min[0], mesh->bounds_min[1], mesh->bounds_min[2] },
-                       { mesh->bounds_max[0], mesh->bounds_max[1], mesh->bounds_max[2] } };
-}
-
 /* deform_pass.c */
 /** @return as nook_render_scene_create */
 nook_result nook_deform_create(nook_render_scene *scene);
@@ -240,6 +230,8 @@ nook_result nook_targets_create(nook_gpu *gpu, uint32_t width, uint32_t height, 
 void nook_targets_destroy(nook_gpu *gpu, render_targets *targets);
 
 /* batch.c */
+/** The box of what is drawn, mesh space. */
+nook_box nook_draw_box(const nook_scene *scene, const nook_draw *draw);
 /** Which draws of a frame go into a set. */
 typedef struct batch_view {
     nook_matrix view_from_world; /* rigid */

@@ -22,7 +22,7 @@ static const sun_box empty = { { INFINITY, INFINITY, INFINITY }, { -INFINITY, -I
 /** Extends a box by that of a draw. */
 static void add_draw(const nook_scene *scene, const nook_draw *draw, const nook_matrix *sun_from_world, sun_box *box)
 {
-    const nook_box of_mesh = draw_box(scene, draw);
+    const nook_box of_mesh = nook_draw_box(scene, draw);
     if (!(of_mesh.min[0] <= of_mesh.max[0]))
         return;
     nook_matrix sun_from_mesh = nook_matrix_multiply(sun_from_world, &draw->world_from_local);
