@@ -55,11 +55,15 @@ nook_result nook_output_prepare(const char *folder)
 {
     char probe[NOOK_OUTPUT_PATH_MAX];
     nook_result result = nook_directory_make(folder);
-    if (result == NOOK_OK)
-        result = nook_file_write(nook_path_join(probe, sizeof probe, folder, ".nook_probe"), "", 0);
-    if (result == NOOK_OK)
-        unlink(probe);
-    return result;
+    if (result != NOOK_OK)
+        return result;
+    FILE *file = fopen(nook_path_join(probe, sizeof probe, folder, ".nook_probe"), "wb");
+    if (!file)
+        return nook_fail(NOOK_E_IO, "%s: no file can be made in it (%s); give another folder by --out", folder,
+                         strerror(errno));
+    fclose(file);
+    unlink(probe);
+    return NOOK_OK;
 }
 
 nook_result nook_output_open(const char *folder, nook_output *out_output)

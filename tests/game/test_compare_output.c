@@ -179,6 +179,11 @@ static void test_folder_that_cannot_be_written_is_refused(void **state)
     assert_int_equal(opened, NOOK_E_IO);
     assert_int_equal(said.errors, 2);
     assert_string_equal(output.folder, "untouched");
+    nook_log_capture_begin(&said);
+    prepared = nook_output_prepare("/proc");
+    nook_log_capture_end();
+    assert_int_equal(prepared, NOOK_E_IO);
+    assert_non_null(strstr(said.text, "/proc: no file can be made in it"));
 }
 
 int main(void)
