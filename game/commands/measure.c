@@ -134,6 +134,9 @@ static int run_measurement(const nook_app *app, const nook_measure_options *opti
     nook_result result = nook_results_read(options->out, run->results);
     if (result == NOOK_OK)
         result = gather(options, run->build, run->journal, run->results);
+    if (result == NOOK_OK && options->tables && run->results->row_count == 0)
+        result = nook_fail(NOOK_E_NOT_FOUND,
+                           "%s: nothing was measured into it yet; leave out --tables, or give --merge", options->out);
     bool ready = result == NOOK_OK;
     if (ready && !options->tables)
         measure(app, options, p, run);
@@ -144,6 +147,8 @@ static int run_measurement(const nook_app *app, const nook_measure_options *opti
     nook_interrupt_release();
     if (!ready)
         return NOOK_EXIT_FAILED;
+    if (result == NOOK_OK && run->results->row_count > 0)
+        printf("Report: %s/report.html\n", options->out);
     if (interrupted)
         nook_log_warning("interrupted; what was measured is kept, and the same command goes on from there");
     bool holds = print_summary(options, run); /* also when the tables could not be written */

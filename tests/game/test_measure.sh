@@ -129,6 +129,13 @@ test_results_of_several_folders_are_joined_without_measuring() {
     while read -r name; do [ -s "$tmp/joined/$name" ]; done < <(column "$tmp/joined/measure.csv" picture)
 }
 
+test_tables_of_nothing_are_refused_and_a_report_is_named() {
+    assert_holds "$(assert_fails 1 measure --tables --out "$tmp/nothing")" "$tmp/nothing: nothing was measured into it yet"
+    printf 'size = 32x18\nnoise = 0.05\n[ssao]\n' >"$tmp/one.txt"
+    assert_holds "$(measure "$crate" --sweep "$tmp/one.txt" --out "$tmp/named" 2>/dev/null)" "Report: $tmp/named/report.html"
+    [ -s "$tmp/named/report.html" ]
+}
+
 test_every_scene_of_a_folder_is_measured_and_one_that_fails_is_counted() {
     mkdir -p "$tmp/scenes/inner"
     cp "$crate" "$tmp/scenes/inner/a.gltf"
