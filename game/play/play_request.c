@@ -1,6 +1,8 @@
 #include "game/play/play_request.h"
+#include "engine/core/file.h"
 #include "game/command.h"
 #include <stdio.h>
+#include <strings.h>
 
 static bool read_seed(void *target, const char *text)
 {
@@ -26,6 +28,18 @@ static const char *find_idle(const nook_play_request *r)
     if (!r->headless || r->capture)
         return NULL;
     return r->settings ? "settings" : r->from > 0.0 ? "from" : r->frames > 0 ? "frames" : NULL;
+}
+
+/* Endings of films and pictures that --capture does not make: a folder of such a name is nobody's wish. */
+static bool is_other_film(const char *path)
+{
+    static const char *const endings[] = { ".mov", ".avi",  ".m4v",  ".mpg", ".mpeg", ".ogv",
+                                           ".wmv", ".apng", ".webp", ".png", ".jpg",  ".jpeg" };
+    for (size_t i = 0; i < NOOK_COUNT(endings); i++) {
+        if (strcasecmp(nook_path_extension(path), endings[i]) == 0)
+            return true;
+    }
+    return false;
 }
 
 static const char details[] =
@@ -103,6 +117,12 @@ bool nook_play_request_read(const char *root, int argc, char **argv, nook_play_r
     if (idle) {
         fprintf(stderr, "nook play: --%s: with --headless nothing is drawn; give --capture too, or leave it out\n",
                 idle);
+        *out_exit_code = NOOK_EXIT_USAGE;
+        return false;
+    }
+    if (out->capture && is_other_film(out->capture)) {
+        fprintf(stderr, "nook play: --capture %s: give a folder, or a video ending in .mp4, .mkv, .webm or .gif\n",
+                out->capture);
         *out_exit_code = NOOK_EXIT_USAGE;
         return false;
     }

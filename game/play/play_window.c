@@ -48,7 +48,8 @@ static nook_result open_stage(nook_play_window *w, const char *root, const nook_
     w->stage.quick = true;
     w->has_window = w->stage.shows;
     if (!w->has_window && !w->driven && nook_play_is_free(&w->play))
-        return nook_fail(NOOK_E_DEVICE, "play: there is no display to play on; give --replay or --pilot");
+        return nook_fail(NOOK_E_DEVICE, "play: %s; give --replay or --pilot",
+                         desc->no_window ? "nobody plays without a window" : "there is no display to play on");
     w->width = desc->width;
     w->height = desc->height;
     return NOOK_OK;

@@ -138,6 +138,20 @@ test_an_interrupted_game_writes_its_recording_and_says_how_far_it_came() {
     [ "$(play --replay "$tmp/stopped.replay" | tail -n 1)" = "$(tail -n 1 "$tmp/stopped")" ]
 }
 
+test_films_of_formats_that_are_not_made_are_refused() {
+    local name said
+    for name in film.mov shot.PNG; do
+        said=$(assert_fails 2 play --replay $house.replay --capture "$tmp/$name")
+        assert_holds "$said" "--capture $tmp/$name: give a folder, or a video ending in .mp4"
+        [ ! -e "$tmp/$name" ]
+    done
+}
+
+test_pictures_of_a_game_that_nobody_plays_are_refused() {
+    assert_holds "$(assert_fails 1 play --capture "$tmp/idle" --size 64x36 --cache "$tmp/cache")" \
+        "play: nobody plays without a window; give --replay or --pilot"
+}
+
 test_options_of_pictures_that_nobody_draws_are_refused() {
     local option said
     for option in --settings=none.settings --from=1 --frames=3; do
