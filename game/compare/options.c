@@ -94,7 +94,9 @@ bool nook_compare_options_read(const nook_app *app, int argc, char **argv, nook_
           .kind = NOOK_OPTION_FLAG,
           .target = &out->list_params,
           .help = "print every parameter that --param takes: initial value, range, unit; and do nothing else" },
-        nook_option_row_reference_rays(&out->reference_rays, 1, "rays per pixel of the ray-traced reference"),
+        nook_option_row_reference_rays(
+            &out->reference_rays, 1,
+            "rays per pixel of the ray-traced reference; default 256. Its noise adds to every error"),
         { .name = "frames",
           .kind = NOOK_OPTION_INT,
           .target = &out->frames,
