@@ -39,6 +39,16 @@ static nook_result create_buffers(nook_ao *ao, size_t frame_size)
     return result;
 }
 
+static void create_sampler(nook_ao *ao)
+{
+    const nook_gl *gl = ao->gpu->gl;
+    gl->CreateSamplers(1, &ao->nearest_sampler);
+    gl->SamplerParameteri(ao->nearest_sampler, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl->SamplerParameteri(ao->nearest_sampler, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    gl->SamplerParameteri(ao->nearest_sampler, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    gl->SamplerParameteri(ao->nearest_sampler, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
+
 nook_result nook_ao_create(const nook_ao_desc *desc, nook_ao **out_ao)
 {
     *out_ao = NULL;
@@ -62,6 +72,7 @@ nook_result nook_ao_create(const nook_ao_desc *desc, nook_ao **out_ao)
     ao->next_volume_id = 1;
     volume_atlas_init(&ao->atlas, ao->gpu);
     brick_pool_init(&ao->pool, ao->gpu);
+    create_sampler(ao);
     result =
         allocate_lists(ao) ? create_buffers(ao, sizeof(frame_block)) : nook_fail(NOOK_E_MEMORY, "nook_ao: no memory");
     if (result != NOOK_OK) {
@@ -83,6 +94,7 @@ void nook_ao_destroy(nook_ao *ao)
     brick_pool_release(&ao->pool);
     ao_meshes_release(ao);
     nook_buffer_destroy(ao->gpu, &ao->frame);
+    ao->gpu->gl->DeleteSamplers(1, &ao->nearest_sampler);
     nook_texture_destroy(ao->gpu, &ao->occluder_texture);
     nook_buffer_destroy(ao->gpu, &ao->occluder_buffer);
     nook_buffer_destroy(ao->gpu, &ao->counter);

@@ -79,6 +79,7 @@ struct nook_ao {
     uint32_t slot_count, current;
     ao_targets targets;
     nook_buffer frame, occluder_buffer, counter;
+    uint32_t nearest_sampler;      /**< Of the host's textures. */
     nook_texture occluder_texture; /**< The buffer's rows as texels. */
     volume_atlas atlas;
     brick_pool pool;

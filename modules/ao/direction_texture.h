@@ -7,8 +7,10 @@ extern "C" {
 #endif
 
 typedef struct nook_direction_texture {
-    nook_texture texture; /**< As wide as the most rays so far. */
+    nook_texture texture; /**< RGBA32F of the buffer: NOOK_DIRECTION_BLOCKS blocks of `rays`, one after the other. */
+    nook_buffer buffer;   /**< Room for the most rays so far. */
     float *values;        /**< Owned: room for as many, to upload from. */
+    uint32_t room;        /**< The most rays so far. */
     uint32_t rays, seed;
 } nook_direction_texture;
 

@@ -15,10 +15,21 @@ nook_result ao_dispatch_over(nook_ao *ao, const char *path, const char *defines,
     return result;
 }
 
+enum { HOST_TEXTURES = 2 };
+
+/** However the host samples its textures, ours is the nearest texel; release_host gives it back. */
 static void bind_host(nook_ao *ao, const nook_ao_frame *frame)
 {
     nook_bind_texture(ao->gpu, 0, ao_host_texture(frame->depth));
     nook_bind_texture(ao->gpu, 1, ao_host_texture(frame->normal.native ? frame->normal : frame->depth));
+    for (GLuint unit = 0; unit < HOST_TEXTURES; unit++)
+        ao->gpu->gl->BindSampler(unit, ao->nearest_sampler);
+}
+
+static void release_host(nook_ao *ao)
+{
+    for (GLuint unit = 0; unit < HOST_TEXTURES; unit++)
+        ao->gpu->gl->BindSampler(unit, 0);
 }
 
 static nook_result dispatch_prepare(nook_ao *ao, const nook_ao_frame *frame, const char *defines, nook_texture depth,
@@ -27,7 +38,9 @@ static nook_result dispatch_prepare(nook_ao *ao, const nook_ao_frame *frame, con
     bind_host(ao, frame);
     nook_bind_image(ao->gpu, 0, depth, GL_WRITE_ONLY);
     nook_bind_image(ao->gpu, 1, normal, GL_WRITE_ONLY);
-    return ao_dispatch_over(ao, "shaders/ao/prepare.comp.glsl", defines, depth.width, depth.height);
+    nook_result result = ao_dispatch_over(ao, "shaders/ao/prepare.comp.glsl", defines, depth.width, depth.height);
+    release_host(ao);
+    return result;
 }
 
 static int is_stepped(const nook_ao *ao)
@@ -100,7 +113,9 @@ static nook_result filter_stepped(nook_ao *ao, const nook_ao_frame *frame)
     bind_host(ao, frame);
     nook_bind_texture(ao->gpu, 2, trace->filtered);
     nook_bind_image(ao->gpu, 0, ao->targets.visibility, GL_WRITE_ONLY);
-    return dispatch_full(ao, "shaders/ao/upscale.comp.glsl", frame->normal.native ? "#define HAS_NORMAL\n" : "");
+    result = dispatch_full(ao, "shaders/ao/upscale.comp.glsl", frame->normal.native ? "#define HAS_NORMAL\n" : "");
+    release_host(ao);
+    return result;
 }
 
 nook_result ao_filter(nook_ao *ao, const nook_ao_frame *frame)

@@ -7,9 +7,9 @@
 #include <string.h>
 
 _Static_assert(offsetof(frame_block, view_from_world) == 96, "std140 places view_from_world at 96");
-_Static_assert(offsetof(frame_block, origin) == 144 && sizeof(frame_block) == 192, "std140 places origin at 144");
+_Static_assert(offsetof(frame_block, origin) == 144 && sizeof(frame_block) == 208, "std140 places origin at 144");
 
-enum { BINDING_FETCHES = 2 };
+enum { BINDING_FETCHES = 2, AO_TEXTURE_UNITS = 7 };
 enum { COUNT_SUMS = 1, COUNT_PIXELS = 2 }; /* shaders/ao/counter.glsl */
 
 static const double RIGID_TOLERANCE = 1e-5; /* what a product of a few matrices in float leaves */
@@ -111,6 +111,10 @@ static frame_block make_block(const nook_ao *ao, const nook_ao_frame *frame, int
         .full_begin = { region->full_begin[0], region->full_begin[1] },
         .full_end = { region->full_end[0], region->full_end[1] },
     };
+    for (int axis = 0; axis < 2; axis++) {
+        block.texel[axis] = 1.0f / (float)block.size[axis];
+        block.full_texel[axis] = 1.0f / (float)block.full_size[axis];
+    }
     set_projection(frame->clip_from_view, &block);
     for (int column = 0; column < 3; column++) {
         for (int row = 0; row < 3; row++)
@@ -219,6 +223,8 @@ nook_result ao_begin(nook_ao *ao, const nook_ao_frame *frame, const ao_work *wor
     if (work->inputs & NOOK_AO_IN_MESHES)
         instances = ao_collect_meshes(ao, &view_from_world);
     bind_fetches(ao, frame);
+    for (GLuint unit = 0; unit < AO_TEXTURE_UNITS; unit++)
+        ao->gpu->gl->BindSampler(unit, 0); /* the host's would change how our textures are sampled */
     result = ao_targets_fit(ao->gpu, &ao->targets, ao->width, ao->height, ao->scale);
     if (result == NOOK_OK)
         result = upload_inputs(ao, frame, work->counting);

@@ -15,10 +15,18 @@ const uint FETCH_UNITS = 16u;
 
 uint fetches = 0u; // of this invocation
 
-vec4 fetch(sampler2D from, ivec2 pixel)
+// One texel of a texture of the trace's or of the picture's size, inside of it, where the nearest is sampled. Not by texelFetch: a
+// software driver works out sizes and level anew for each pixel.
+vec4 fetch_trace(sampler2D from, ivec2 pixel)
 {
     fetches++;
-    return texelFetch(from, pixel, 0);
+    return textureLod(from, (vec2(pixel) + 0.5) * frame.texel, 0.0);
+}
+
+vec4 fetch_full(sampler2D from, ivec2 pixel)
+{
+    fetches++;
+    return textureLod(from, (vec2(pixel) + 0.5) * frame.full_texel, 0.0);
 }
 
 // One fetch, filtered or not.
@@ -30,6 +38,12 @@ vec4 fetch_filtered(sampler3D from, vec3 at)
 
 // A record of a texture buffer.
 uvec4 fetch_record(usamplerBuffer from, int index)
+{
+    fetches++;
+    return texelFetch(from, index);
+}
+
+vec4 fetch_record(samplerBuffer from, int index)
 {
     fetches++;
     return texelFetch(from, index);

@@ -28,18 +28,18 @@ struct Mean {
 
 float trace_depth(ivec2 q)
 {
-    return fetch(depth_trace_texture, q).r;
+    return fetch_trace(depth_trace_texture, q).r;
 }
 
 float trace_visibility(ivec2 q)
 {
-    return fetch(visibility_trace_texture, q).r;
+    return fetch_trace(visibility_trace_texture, q).r;
 }
 
 float guide_weight(Guide guide, ivec2 q, float depth)
 {
     float plane = plane_distance(guide, view_position(q, depth));
-    float facing = max(dot(guide.normal, nook_octahedral_decode(fetch(normal_trace, q).xy)), 0.0);
+    float facing = max(dot(guide.normal, nook_octahedral_decode(fetch_trace(normal_trace, q).xy)), 0.0);
     return exp(-plane * plane) * pow(max(facing, 1e-6), frame.filter_normal);
 }
 
@@ -161,7 +161,7 @@ void main()
     float depth = trace_depth(p), result = 1.0;
     vec3 normal = vec3(0.0);
     if (depth > 0.0) {
-        normal = nook_octahedral_decode(fetch(normal_trace, p).xy);
+        normal = nook_octahedral_decode(fetch_trace(normal_trace, p).xy);
         result = bounded(filtered(vec2(p), make_guide(view_position(p, depth), normal), p));
     }
     imageStore(filtered_out, p, vec4(normal * depth, result));
@@ -173,9 +173,9 @@ void main()
     ivec2 p = frame.full_begin + ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(p, frame.full_end)))
         return;
-    float depth = fetch(depth_full, p).r, result = 1.0;
+    float depth = fetch_full(depth_full, p).r, result = 1.0;
     if (depth > 0.0) {
-        vec3 normal = nook_octahedral_decode(fetch(normal_full, p).xy);
+        vec3 normal = nook_octahedral_decode(fetch_full(normal_full, p).xy);
         result = bounded(filtered(trace_centre(p), make_guide(full_ray(vec2(p)) * depth, normal), p));
     }
     imageStore(visibility_out, p, vec4(result));

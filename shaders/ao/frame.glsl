@@ -23,6 +23,7 @@ layout(std140, binding = 0) uniform Frame {
     ivec2 origin;                // trace pixel of a dispatch's first invocation
     ivec2 begin, end;            // trace pixels that are wanted: begin to end - 1
     ivec2 full_begin, full_end;  // full-resolution pixels that are wanted
+    vec2 texel, full_texel;      // 1 / size, 1 / full_size
 } frame;
 
 // The trace pixel of this invocation; it may lie outside of what is wanted.

@@ -1,5 +1,5 @@
 #pragma once
-// The host's own depth and normals, as the techniques see them: distance along -Z and view normals.
+// The host's own depth and normals, sampled nearest, as the techniques see them: distance along -Z and view normals.
 #include "ao/frame.glsl"
 #include "ao/counter.glsl"
 #include "nook/octahedral.glsl"
@@ -14,7 +14,7 @@ float distance_at(ivec2 p)
 {
     if (any(lessThan(p, ivec2(0))) || any(greaterThanEqual(p, frame.full_size)))
         return 0.0;
-    float d = fetch(device_depth, p).r;
+    float d = fetch_full(device_depth, p).r;
     float distance = frame.depth_to_distance.x / ((d - frame.depth_background) + frame.depth_to_distance.y);
     bool seen = d != frame.depth_background && distance > NEAREST && distance < FARTHEST; // false for NaN
     return seen ? distance : 0.0;
@@ -48,7 +48,7 @@ vec3 rebuilt_normal(ivec2 p, float depth)
 // The host's. @return false: it is no direction
 bool given_normal(ivec2 p, out vec3 normal)
 {
-    vec3 world = nook_octahedral_decode(fetch(normal_world, p).xy);
+    vec3 world = nook_octahedral_decode(fetch_full(normal_world, p).xy);
     mat3 rotation = mat3(frame.view_from_world[0].xyz, frame.view_from_world[1].xyz, frame.view_from_world[2].xyz);
     vec3 view = rotation * world;
     float size = dot(view, view);

@@ -33,7 +33,7 @@ Sample look_at(vec3 point)
     if (!s.inside)
         return s;
     ivec2 q = ivec2(at);
-    float depth = fetch(depth_texture, q).r;
+    float depth = fetch_trace(depth_texture, q).r;
     s.position = view_position(q, depth);
     s.seen = depth > 0.0;
     return s;
@@ -44,10 +44,10 @@ void main()
     ivec2 pixel = invocation_pixel();
     if (!is_wanted(pixel))
         return;
-    float depth = fetch(depth_texture, pixel).r;
+    float depth = fetch_trace(depth_texture, pixel).r;
     float visibility = part.x == 0 ? 1.0 : imageLoad(visibility_image, pixel).r;
     if (depth > 0.0) {
-        vec3 normal = nook_octahedral_decode(fetch(normal_texture, pixel).xy);
+        vec3 normal = nook_octahedral_decode(fetch_trace(normal_texture, pixel).xy);
         visibility = bounded(visibility - occlusion(pixel, view_position(pixel, depth), normal));
     }
     imageStore(visibility_image, pixel, vec4(visibility));

@@ -10,7 +10,7 @@ const int KERNEL_SPHERE = 0;
 // Unit direction, uniform over the hemisphere or sphere, from the cosine-weighted table: its z^2 is uniform in (0, 1).
 vec3 uniform_direction(int sample_index, int block)
 {
-    vec3 local = fetch(directions, ivec2(sample_index, block)).xyz;
+    vec3 local = local_direction(sample_index, params.samples, block);
     float z = params.kernel == KERNEL_SPHERE ? 2.0 * local.z * local.z - 1.0 : local.z * local.z;
     float radius = max(length(local.xy), 1e-6);
     return vec3(local.xy / radius * sqrt(max(1.0 - z * z, 0.0)), z);

@@ -79,7 +79,7 @@ float sum_union(float sum, bool inside, vec3 position, vec3 normal, ivec2 pixel)
                 for (int j = 0; j < BATCH; j++) { // a constant bound, so that met[] can live in registers
                     if (j >= batch)
                         break;
-                    vec3 d = direction(first + j, block, tangent, bitangent, normal);
+                    vec3 d = direction(first + j, params.rays, block, tangent, bitangent, normal);
                     met[j] = combine(met[j], walk_volume(o, r, d, met[j].end));
                 }
             }

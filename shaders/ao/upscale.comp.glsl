@@ -51,7 +51,7 @@ void add_corners(inout Mean mean, Guide guide, vec2 centre)
     for (int i = 0; i < 4; i++) {
         ivec2 step = ivec2(i & 1, i >> 1), q = clamp(base + step, ivec2(0), frame.size - 1);
         vec2 near = mix(1.0 - part, part, vec2(step));
-        vec4 texel = fetch(filtered_trace, q);
+        vec4 texel = fetch_trace(filtered_trace, q);
         add(mean, texel.w, weight_on_surface(guide, q, texel.xyz) * (near.x * near.y + 1e-4));
     }
 }
@@ -65,7 +65,7 @@ void add_around(inout Mean mean, Guide guide, vec2 centre)
     for (int i = 0; i < wanted; i++) {
         ivec2 q = base + ivec2(i % 5, i / 5), inside = clamp(q, ivec2(0), frame.size - 1);
         vec2 covered = clamp(2.5 - abs(vec2(q) - centre), 0.0, 1.0);
-        vec4 texel = fetch(filtered_trace, inside);
+        vec4 texel = fetch_trace(filtered_trace, inside);
         float weight = weight_around(guide, inside, texel.xyz) * covered.x * covered.y;
         add(mean, texel.w, q == inside ? weight : 0.0);
     }

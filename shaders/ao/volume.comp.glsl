@@ -101,30 +101,28 @@ float sum_union(float sum, bool inside, vec3 position, vec3 normal, ivec2 pixel)
     float shift = noise(pixel, 1u), start = part.z > 0 ? imageLoad(kept_image, pixel).r : frame.r_max;
     for (int first = part.x; first < part.y; first += BATCH) {
         int batch = min(BATCH, part.y - first);
-        float nearest[BATCH];
-        for (int j = 0; j < BATCH; j++)
-            nearest[j] = start;
+        Batch nearest = Batch(vec4(start), vec4(start));
         for (int chunk = part.z; chunk < part.w; chunk += CHUNK) {
             if (first == part.x || part.w - part.z > CHUNK)
                 tile_list(chunk, part.w);
-            for (uint i = 0u; inside && i < tile_count; i++) {
+            uint listed = inside ? tile_count : 0u;
+            for (uint i = 0u; i < listed; i++) {
                 Occluder o = occluder_at(tile_items[i]);
                 Receiver r = receive(o, position, normal);
                 if (!r.can_see)
                     continue;
-                for (int j = 0; j < BATCH; j++) { // a constant bound, so that nearest[] can live in registers
-                    if (j >= batch)
-                        break;
-                    vec3 d = direction(first + j, block, tangent, bitangent, normal);
+                for (int j = 0; j < batch; j++) {
+                    vec3 d = direction(first + j, params.rays, block, tangent, bitangent, normal);
                     float jitter = fract(shift + float(first + j) * 0.61803399);
-                    nearest[j] = min(nearest[j], march(o, r, d, dot(d, normal), nearest[j], jitter));
+                    float before = batch_get(nearest, j);
+                    batch_set(nearest, j, min(before, march(o, r, d, dot(d, normal), before, jitter)));
                 }
             }
         }
         if (part.w < occluder_count)
-            imageStore(kept_image, pixel, vec4(nearest[0]));
-        for (int j = 0; j < BATCH; j++)
-            sum += j < batch && part.w == occluder_count ? falloff(nearest[j]) : 0.0;
+            imageStore(kept_image, pixel, vec4(nearest.low.x));
+        for (int j = 0; j < batch; j++)
+            sum += part.w == occluder_count ? falloff(batch_get(nearest, j)) : 0.0;
     }
     return sum;
 }

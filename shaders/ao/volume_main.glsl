@@ -19,7 +19,7 @@ float multiply_visibilities(float visibility, bool inside, vec3 position, vec3 n
                 continue;
             float sum = part.x == 0 ? 0.0 : imageLoad(kept_image, pixel).r;
             for (int j = part.x; j < part.y; j++) {
-                vec3 d = direction(j, block, tangent, bitangent, normal);
+                vec3 d = direction(j, params.rays, block, tangent, bitangent, normal);
                 float jitter = fract(shift + float(j) * 0.61803399);
                 sum += occlusion_along(o, r, d, dot(d, normal), jitter);
             }
@@ -46,13 +46,13 @@ void main()
 {
     ivec2 pixel = invocation_pixel();
     bool on_image = is_wanted(pixel), multiply = params.combine == COMBINE_MULTIPLY;
-    float depth = on_image ? fetch(depth_texture, pixel).r : 0.0;
+    float depth = on_image ? fetch_trace(depth_texture, pixel).r : 0.0;
     // Between parts the image holds the product so far, or the sum of rho so far.
     bool is_first = part.x == 0 && part.z == 0, is_last = part.y == params.rays && part.w == occluder_count;
     float result = is_first || !on_image ? (multiply ? 1.0 : 0.0) : imageLoad(visibility_image, pixel).r;
     if (tile_begin(depth)) {
         vec3 position = view_position(pixel, depth);
-        vec3 normal = on_image ? nook_octahedral_decode(fetch(normal_texture, pixel).xy) : vec3(0.0, 0.0, 1.0);
+        vec3 normal = on_image ? nook_octahedral_decode(fetch_trace(normal_texture, pixel).xy) : vec3(0.0, 0.0, 1.0);
         if (multiply)
             result = multiply_visibilities(result, depth > 0.0, position, normal, pixel);
         else

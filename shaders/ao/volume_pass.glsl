@@ -30,3 +30,22 @@ layout(location = 1) uniform int occluder_count; // of all parts
 
 const int COMBINE_MULTIPLY = 0;
 const int BATCH = 8; // rays whose hits are held in registers
+
+// A number for each ray of a batch. Not an array: that a loop indexes would lie in memory, and a software driver writes there lane by
+// lane, with a jump for each.
+struct Batch {
+    vec4 low, high;
+};
+
+float batch_get(Batch batch, int j)
+{
+    vec4 four = j < 4 ? batch.low : batch.high;
+    vec2 two = (j & 2) == 0 ? four.xy : four.zw;
+    return (j & 1) == 0 ? two.x : two.y;
+}
+
+void batch_set(inout Batch batch, int j, float value)
+{
+    batch.low = mix(batch.low, vec4(value), equal(ivec4(j), ivec4(0, 1, 2, 3)));
+    batch.high = mix(batch.high, vec4(value), equal(ivec4(j), ivec4(4, 5, 6, 7)));
+}

@@ -1,6 +1,7 @@
 /* What a technique is given: the host's depth and normals in view space, whatever the projection. */
 #include "tests/support/ao_view.h"
 #include <math.h>
+#include <string.h>
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -258,6 +259,60 @@ static void test_prepare_keeps_axis_normals_exact(void **state)
     }
 }
 
+static float paint_pattern(const ao_probe *probe, uint32_t x, uint32_t y)
+{
+    (void)probe;
+    return (float)((x * 7 + y * 13) % 11) / 10.0f;
+}
+
+/** A host's way of looking at its own textures, as unlike ours as can be: filtered, and by sampler objects that it has left bound. */
+static GLuint leave_samplers_bound(nook_fixture_view *view)
+{
+    const nook_gl *gl = view->gpu->gl;
+    GLuint sampler;
+    const nook_texture own[2] = { view->depth, view->normal };
+    for (int i = 0; i < 2; i++) {
+        gl->TextureParameteri(own[i].id, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+        gl->TextureParameteri(own[i].id, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+        gl->TextureParameteri(own[i].id, GL_TEXTURE_WRAP_S, GL_MIRRORED_REPEAT);
+    }
+    gl->CreateSamplers(1, &sampler);
+    gl->SamplerParameteri(sampler, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    gl->SamplerParameteri(sampler, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    gl->SamplerParameteri(sampler, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
+    for (GLuint unit = 0; unit < 7; unit++)
+        gl->BindSampler(unit, sampler);
+    return sampler;
+}
+
+static void test_prepare_and_upscaling_do_not_care_how_the_host_samples_its_textures(void **state)
+{
+    nook_fixture_view *view = *state;
+    projection projections[8];
+    float depth[WIDTH * HEIGHT], visibility[WIDTH * HEIGHT];
+    list_projections(projections);
+    use(view, &projections[0]);
+    draw_distances(view);
+    ao_view_param(view, "ao.scale", "half");
+    ao_view_param(view, "ao.upscale", "stepped");
+    ao_view_probe(view)->paint = paint_pattern;
+    ao_view_record(view, "probe");
+    const size_t count = (size_t)ao_view_probe(view)->width * ao_view_probe(view)->height;
+    memcpy(depth, ao_view_probe(view)->depth, count * sizeof *depth);
+    memcpy(visibility, view->visibility, sizeof visibility);
+
+    GLuint sampler = leave_samplers_bound(view);
+    ao_view_record(view, "probe");
+    assert_memory_equal(ao_view_probe(view)->depth, depth, count * sizeof *depth);
+    assert_memory_equal(view->visibility, visibility, sizeof visibility);
+    for (GLuint unit = 0; unit < 7; unit++)
+        view->gpu->gl->BindSampler(unit, 0);
+    view->gpu->gl->DeleteSamplers(1, &sampler);
+    ao_view_probe(view)->paint = NULL;
+    ao_view_param(view, "ao.upscale", "direct");
+    ao_view_param(view, "ao.scale", "full");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -269,6 +324,7 @@ int main(void)
         cmocka_unit_test(test_prepare_turns_a_lone_pixel_to_the_camera),
         cmocka_unit_test(test_prepare_rotates_world_normals_into_view_space),
         cmocka_unit_test(test_prepare_keeps_axis_normals_exact),
+        cmocka_unit_test(test_prepare_and_upscaling_do_not_care_how_the_host_samples_its_textures),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
 }
