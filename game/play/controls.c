@@ -9,6 +9,12 @@ static double axis(bool minus, bool plus, double stick)
     return fmin(fmax((plus ? 1.0 : 0.0) - (minus ? 1.0 : 0.0) + stick, -1.0), 1.0);
 }
 
+/* A key that was down for less than a frame counts for that frame: where frames are long, a step to the side is one. */
+static bool is_held(const nook_input *input, nook_key key, nook_key other)
+{
+    return input->down[key] || input->pressed[key] || input->down[other] || input->pressed[other];
+}
+
 static uint16_t held_buttons(const nook_input *input)
 {
     const bool *down = input->down;
@@ -47,7 +53,6 @@ static uint16_t pressed_buttons(nook_controls *controls, const nook_input *input
 void nook_controls_add(nook_controls *controls, const nook_input *input, const nook_preferences *preferences,
                        double seconds)
 {
-    const bool *down = input->down;
     const nook_gamepad *pad = &input->pad;
     double mouse = (double)preferences->mouse_speed * turns_per_degree;
     double stick = (double)preferences->pad_speed * seconds * turns_per_degree;
@@ -55,8 +60,9 @@ void nook_controls_add(nook_controls *controls, const nook_input *input, const n
     controls->yaw += -input->mouse_dx * mouse - pad->right[0] * stick;
     controls->pitch += (-input->mouse_dy * mouse + pad->right[1] * stick) * up;
     double right =
-        axis(down[NOOK_KEY_A] || down[NOOK_KEY_LEFT], down[NOOK_KEY_D] || down[NOOK_KEY_RIGHT], pad->left[0]);
-    double forward = axis(down[NOOK_KEY_S] || down[NOOK_KEY_DOWN], down[NOOK_KEY_W] || down[NOOK_KEY_UP], pad->left[1]);
+        axis(is_held(input, NOOK_KEY_A, NOOK_KEY_LEFT), is_held(input, NOOK_KEY_D, NOOK_KEY_RIGHT), pad->left[0]);
+    double forward =
+        axis(is_held(input, NOOK_KEY_S, NOOK_KEY_DOWN), is_held(input, NOOK_KEY_W, NOOK_KEY_UP), pad->left[1]);
     controls->held.right = (int8_t)lround(127.0 * right);
     controls->held.forward = (int8_t)lround(127.0 * forward);
     uint16_t held = held_buttons(input);

@@ -62,6 +62,25 @@ static void test_a_press_and_a_turn_go_into_one_tick_and_holding_into_all(void *
     assert_int_equal(second.yaw, 0);
 }
 
+static void test_a_key_that_was_down_for_less_than_a_frame_walks_for_it(void **state)
+{
+    (void)state;
+    nook_controls controls = { 0 };
+    nook_preferences preferences = likings();
+    nook_input input = { 0 };
+    input.pressed[NOOK_KEY_A] = input.pressed[NOOK_KEY_UP] = true;
+    nook_controls_add(&controls, &input, &preferences, 0.05);
+    for (int i = 0; i < 2; i++) { /* ticks of that frame */
+        nook_play_input out = nook_controls_take(&controls);
+        assert_int_equal(out.right, -127);
+        assert_int_equal(out.forward, 127);
+    }
+    const nook_input idle = { 0 };
+    nook_controls_add(&controls, &idle, &preferences, 0.05);
+    nook_play_input out = nook_controls_take(&controls);
+    assert_true(out.right == 0 && out.forward == 0);
+}
+
 static void test_parts_of_a_step_are_not_lost(void **state)
 {
     (void)state;
@@ -138,6 +157,7 @@ int main(void)
         cmocka_unit_test(test_nothing_pressed_is_an_input_of_zeros),
         cmocka_unit_test(test_opposite_keys_cancel_and_a_stick_adds_up_to_full_speed_only),
         cmocka_unit_test(test_a_press_and_a_turn_go_into_one_tick_and_holding_into_all),
+        cmocka_unit_test(test_a_key_that_was_down_for_less_than_a_frame_walks_for_it),
         cmocka_unit_test(test_parts_of_a_step_are_not_lost),
         cmocka_unit_test(test_a_stick_turns_with_time_and_a_mouse_does_not),
         cmocka_unit_test(test_looking_up_is_up_unless_it_is_inverted),
