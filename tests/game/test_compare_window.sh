@@ -34,7 +34,7 @@ test_c_goes_to_the_next_camera_and_number_keys_only_to_chosen_techniques() {
         press c; wait_for 30 grep -q "view: camera" "$tmp/log"
         press 3; press 2; wait_for 30 title_has "2 reference"' --techniques hsao
     [ "$(grep -m 1 'view: camera' "$tmp/log" | sed 's/.* //')" = above ]
-    ! grep -q 'technique volume\|technique ssao' "$tmp/log"
+    not grep -q 'technique volume\|technique ssao' "$tmp/log"
 }
 
 test_dragging_turns_the_picture_and_a_new_size_is_filled() {
@@ -46,7 +46,7 @@ test_dragging_turns_the_picture_and_a_new_size_is_filled() {
         xdotool mousemove --window "$window" 100 110
         sleep 0.3
         xdotool mouseup 1
-        differs() { import -window root "$tmp/after.png"; ! cmp -s "$tmp/before.png" "$tmp/after.png"; }
+        differs() { import -window root "$tmp/after.png"; not cmp -s "$tmp/before.png" "$tmp/after.png"; }
         wait_for 30 differs
         xdotool windowsize "$window" 500 300
         filled() { import -window "$window" "$tmp/resized.png"; [ "$(convert "$tmp/resized.png" -crop 40x40+450+10 -format "%[fx:mean>0.2]" info:)" = 1 ]; }

@@ -96,7 +96,7 @@ test_interrupted_it_says_how_to_go_on_and_goes_on() {
 
 test_killed_it_goes_on_and_comes_to_the_same_errors() {
     local rows
-    ! stop_after 2 KILL "$tmp/kill" 2>/dev/null
+    not stop_after 2 KILL "$tmp/kill" 2>/dev/null
     printf '{"row": {"scene": "cut sh' >>"$tmp/kill/journal.jsonl"
     rows=$(rows_in "$tmp/kill")
     rows=$((rows - 1)) # the one cut short
@@ -175,7 +175,7 @@ test_tables_go_into_a_document() {
     measure_crate --out "$tmp/all" --document "$tmp/document.md" >"$tmp/first"
     assert_holds "$(cat "$tmp/document.md")" 'before'
     assert_holds "$(cat "$tmp/document.md")" 'crate.gltf'
-    ! grep -q old "$tmp/document.md"
+    not grep -q old "$tmp/document.md"
 }
 
 test_what_is_wrong_is_one_line() {

@@ -212,7 +212,7 @@ test_report_of_a_real_measurement_loads_and_shows_it() {
     assert_holds "$(cat "$tmp/sources")" 'truth,screen,lit,geometry,setting volume,' # kept always; others when they are on a front
     assert_holds "$(cat "$tmp/sources")" ',setting ssao,'
     browser_run "return document.querySelector('#pinned').textContent" >"$tmp/pinned"
-    ! grep -q 'NaN\|undefined' "$tmp/pinned"
+    not grep -q 'NaN\|undefined' "$tmp/pinned"
     equals "$(browser_complaints)" ''
 }
 

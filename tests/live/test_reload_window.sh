@@ -45,7 +45,7 @@ test_saved_scene_is_seen_and_a_broken_one_is_in_the_title() {
     in_window '
         press 0; wait_for 30 title_has "0 none"
         import -window "$window" "$tmp/before.png"
-        differs() { import -window "$window" "$tmp/after.png"; ! cmp -s "$tmp/before.png" "$tmp/after.png"; }
+        differs() { import -window "$window" "$tmp/after.png"; not cmp -s "$tmp/before.png" "$tmp/after.png"; }
         sed -i "0,/0\\.3,/s//-0.9,/" "$crate"
         wait_for 60 differs
         sed -i "s/\"asset\"/\"asset/" "$crate"

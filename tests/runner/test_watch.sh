@@ -77,7 +77,7 @@ test_what_is_saved_is_built_until_it_is_stopped() {
     cp $live/game.so "$NOOK_TEST_TMP/first.so"
     write_answer 43 # in place
     wait_until build_says "$before" ok
-    ! cmp -s $live/game.so "$NOOK_TEST_TMP/first.so"
+    not cmp -s $live/game.so "$NOOK_TEST_TMP/first.so"
     before=$(cat $live/build)
     write_answer nothing
     wait_until build_says "$before" failed

@@ -21,6 +21,10 @@ assert_fails() {
     fi
 }
 
+# not COMMAND...: it must fail. With a ! before it, a command never ends a script that is run with set -e, whatever comes of it.
+not() { ! "$@"; }
+export -f not
+
 skip_test() { # REASON
     echo "$1"
     exit 77
