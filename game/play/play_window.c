@@ -326,9 +326,10 @@ nook_result nook_play_window_frame(nook_play_window *w, bool *out_goes_on)
     else if (w->captures)
         look_nowhere(w);
     bool hidden = w->has_window && (input.width == 0 || input.height == 0);
-    bool stands_still = (w->paused && !w->restart) || nook_live_frozen(w->live);
-    nook_result result = stands_still ? NOOK_OK : run_ticks(w, seconds);
-    keep_picture(w, stands_still || hidden);
+    nook_play_standing standing = nook_play_standing_of(w);
+    bool goes_on = standing == NOOK_PLAY_GOES_ON || (standing == NOOK_PLAY_PAUSED && w->restart);
+    nook_result result = goes_on ? run_ticks(w, seconds) : NOOK_OK;
+    keep_picture(w, !goes_on || hidden);
     if (result == NOOK_OK && !hidden)
         result = draw(w);
     nook_play_tell(w);

@@ -41,12 +41,16 @@ typedef struct nook_frame_pacing {
     uint32_t count, next;
 } nook_frame_pacing;
 
+/** Why there are no ticks. */
+typedef enum nook_play_standing { NOOK_PLAY_GOES_ON, NOOK_PLAY_PAUSED, NOOK_PLAY_FROZEN } nook_play_standing;
+
 /** What of a game has been told: only what is new is. */
 typedef struct nook_play_told {
     char carried[NOOK_LEVEL_NAME_SIZE];
     nook_session_status status;
     uint32_t open;
-    bool paused;
+    nook_play_standing standing;
+    uint64_t ticks; /**< At the end of the last frame. */
 } nook_play_told;
 
 /** Members are for reading; zeroed is closed. */
@@ -85,6 +89,8 @@ nook_result nook_play_window_renew(nook_play_window *window);
 /** Writes recording and preferences, frees everything. @return NOOK_E_IO, NOOK_E_MEMORY: not written; closed it is */
 nook_result nook_play_window_close(nook_play_window *window);
 
+/** NOOK_PLAY_FROZEN when it is both. */
+nook_play_standing nook_play_standing_of(const nook_play_window *window);
 /** Logs what has happened since the last call, and puts the state of the game into the title. */
 void nook_play_tell(nook_play_window *window);
 

@@ -37,7 +37,8 @@ in_window_of() {
     need_display
     export title=$1 script=$2
     shift 2
-    with_display bash -euc '
+    with_display bash -Eeuc '
+        trap "echo \"failed: \$BASH_COMMAND\"" ERR
         NOOK_ROOT=$root "$program" "$@" >"$tmp/table" 2>"$tmp/log" &
         program_id=$!
         wait_for() { # SECONDS COMMAND...
@@ -54,7 +55,26 @@ in_window_of() {
         log_has() { grep -q -- "$1" "$tmp/log"; }
         pixel() { import -window "$window" png:- | convert png:- -crop 1x1+"$1"+"$2" -format "%[hex:u.p{0,0}]" info:; } # X Y: its colour
         has_pixel() { [ "$(pixel "$1" "$2")" = "$3" ]; }
+        see() { import -window "$window" "$tmp/$1.png"; } # NAME
+        looks_like() { see seen && cmp -s "$tmp/seen.png" "$tmp/$1.png"; } # NAME
+        has_colour() { # COLOUR [PART]: about that; letters are smoothed
+            see seen && [ "$(convert "$tmp/seen.png" -crop "${2:-0x0}" +repage -fuzz 15% -fill black +opaque "$1" -format "%[fx:mean > 0 ? 1 : 0]" info:)" = 1 ]
+        }
+        has_red() { has_colour "rgb(255,110,100)"; } # that of messages
+        has_no_red() { not has_red; }
         hold() { xdotool keydown --window "$window" "$1"; sleep "${2:-0.4}"; xdotool keyup --window "$window" "$1"; } # KEY [SECONDS]
+        hold_until() { # KEY COMMAND...
+            xdotool keydown --window "$window" "$1"
+            wait_for 30 "${@:2}"
+            xdotool keyup --window "$window" "$1"
+        }
+        step_until() { # KEY COMMAND...: in short steps, however slow frames are
+            local steps=0
+            until "${@:2}"; do
+                [ $((steps += 1)) -le 100 ] || { echo "walked in vain by $1 for: ${*:2}"; return 1; }
+                hold "$1" 0.1
+            done
+        }
         press() { xdotool key --window "$window" "$1"; }
         wait_for 120 find_window
         eval "$script"
