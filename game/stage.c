@@ -156,7 +156,7 @@ nook_result nook_stage_scene_upload(nook_stage *stage, nook_scene *scene, nook_s
     nook_result result = NOOK_OK;
     if (scene->triangle_count == 0)
         result = nook_fail(NOOK_E_FORMAT, "%s: holds no triangles, so there is nothing to draw", scene->path);
-    else if (baked->occluder_count > stage->occluder_max)
+    else if (baked->occluder_count + scene->deformable_count > stage->occluder_max)
         result = nook_fail(NOOK_E_RANGE, "%s: %u bodies, there is room for %u; start again to see them", scene->path,
                            baked->occluder_count, stage->occluder_max);
     if (result == NOOK_OK)
@@ -240,7 +240,7 @@ nook_result nook_stage_update(nook_stage *stage, const nook_camera *camera)
                                  .lights = &stage->lights,
                                  .quick = stage->quick,
                                  .cull_back_faces = stage->quick };
-    return NOOK_OK;
+    return nook_game_world_voxelize(stage->world, stage->render_scene, camera, (double)stage->width / stage->height);
 }
 
 nook_result nook_stage_begin(nook_stage *stage, const nook_camera *camera)

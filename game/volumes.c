@@ -378,9 +378,6 @@ nook_result nook_volumes_bake(const nook_scene *scene, const nook_volumes_desc *
         return nook_fail(NOOK_E_RANGE, "bake: resolution %u; choose 1 to %u", resolution, NOOK_VOXELIZE_RESOLUTION_MAX);
     if (!isfinite(desc->r_max) || desc->r_max < 0.0)
         return nook_fail(NOOK_E_RANGE, "bake: r_max %g; choose a length in metres above 0", desc->r_max);
-    if (scene->deformable_count > 0)
-        nook_log_warning("%s: %u meshes change their shape while they play: they have no volume, and darken nothing",
-                         scene->path, scene->deformable_count);
     if (desc->must_keep && nook_directory_make(desc->cache_dir) != NOOK_OK)
         return NOOK_E_IO; /* before the work */
     nook_scene_volumes volumes = { .r_max = desc->r_max > 0.0 ? desc->r_max : nook_volumes_default_r_max(scene) };

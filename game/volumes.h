@@ -4,8 +4,8 @@
  * A moving node with a mesh is a body; its volume is in the mesh's own space, and all nodes with that mesh share it. All other
  * nodes with a mesh are one body, "static", in a space that is the world moved to the scene's centre (so that floats suffice).
  *
- * Animation     What a clip moves is a body. A mesh that skins or morph targets deform while it plays has no volume, and a warning says so;
- *               one that stands still in a pose has one like any other (engine/animation/scene_stand.h).
+ * Animation     What a clip moves is a body. A mesh that skins or morph targets deform while it plays is voxelised every
+ *               frame (game/live_volumes.h); one that stands still in a pose has one like any other (engine/animation/scene_stand.h).
  * Materials     Blended ones are left out: a binary volume would make glass as dark as a wall. Masked ones are in, whole.
  * Resolution    follows from r_max: finer than r_max / NOOK_VOLUMES_VOXELS_PER_R_MAX cannot be told apart in the result. The static
  *               volume takes the `resolution` asked for on its longest side. A body takes as many voxels as make them that

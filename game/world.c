@@ -2,6 +2,7 @@
 #include "engine/core/log.h"
 #include "game/animation.h"
 #include "game/draw_list.h"
+#include "game/live_volumes.h"
 #include "game/progress.h"
 #include "game/volumes.h"
 #include <assert.h>
@@ -17,6 +18,8 @@ struct nook_game_world {
     nook_components components;
     nook_scene_pose *pose;        /* NULL when nothing is animated */
     uint32_t *deformable_of_mesh; /* NOOK_NONE for most; with a pose */
+    nook_live_volumes live;       /* of deformables, once volumes are baked */
+    bool traced;                  /* the reference sees their poses */
     nook_draw *draws;
     nook_ao_occluder *occluders;
     nook_world_volume *volumes;
@@ -131,11 +134,33 @@ static nook_result make_occluders(nook_game_world *world, const nook_scene_volum
     return NOOK_OK;
 }
 
+/* Entities of deformables know their volume, and the triangles that the reference has of them. */
+static nook_result tell_entities(nook_game_world *world)
+{
+    nook_result result = NOOK_OK;
+    for (uint32_t i = 0; i < world->live.count && result == NOOK_OK; i++) {
+        const nook_live_volume *volume = &world->live.items[i];
+        uint32_t node = world->scene->deformables[volume->deformable].node;
+        result = nook_entity_add(world->entities, world->of_node[node], world->components.volume_occluder,
+                                 &volume->occluder);
+    }
+    return result;
+}
+
+static nook_result make_live_volumes(nook_game_world *world, double r_max)
+{
+    if (!world->pose)
+        return NOOK_OK;
+    nook_result result = nook_live_volumes_create(world->ao, world->pose, r_max, &world->live);
+    return result == NOOK_OK ? tell_entities(world) : result;
+}
+
 static nook_result fill(nook_game_world *world, nook_scene_volumes *baked)
 {
+    uint32_t occluder_max = baked->occluder_count + world->scene->deformable_count;
     world->volumes = calloc(baked->volume_count + 1, sizeof *world->volumes);
     world->uploaded = calloc(baked->volume_count + 1, sizeof *world->uploaded);
-    world->occluders = calloc(baked->occluder_count + 1, sizeof *world->occluders);
+    world->occluders = calloc(occluder_max + 1u, sizeof *world->occluders);
     if (!world->volumes || !world->uploaded || !world->occluders)
         return nook_fail(NOOK_E_MEMORY, "%s: no memory for its volumes", world->scene->path);
     world->volume_count = baked->volume_count;
@@ -149,7 +174,9 @@ static nook_result fill(nook_game_world *world, nook_scene_volumes *baked)
     if (result == NOOK_OK)
         result = make_occluders(world, baked);
     if (result == NOOK_OK)
-        result = nook_occluders_set_up(world->entities, world->occluders, baked->occluder_count);
+        result = make_live_volumes(world, baked->r_max);
+    if (result == NOOK_OK)
+        result = nook_occluders_set_up(world->entities, world->occluders, occluder_max);
     return result;
 }
 
@@ -232,6 +259,7 @@ void nook_game_world_destroy(nook_game_world *world)
         nook_ao_remove_mesh(world->ao, world->uploaded[i].mesh);
     }
     nook_world_destroy(world->entities);
+    nook_live_volumes_destroy(world->ao, &world->live);
     nook_scene_pose_destroy(world->pose);
     free(world->deformable_of_mesh);
     free(world->of_node);
@@ -284,6 +312,39 @@ static void pose_draws(nook_game_world *world)
     }
 }
 
+/* New triangles have new ids: components learn them, and so do the occluders that were collected with the old ones. */
+static nook_result trace_poses(nook_game_world *world)
+{
+    uint32_t version;
+    const nook_type type = NOOK_TYPE(nook_occluder_list);
+    nook_occluder_list *list = nook_world_resource(world->entities, &type);
+    nook_game_world_poses(world, &version);
+    nook_result result = nook_live_volumes_trace(&world->live, world->ao, world->pose, version);
+    if (result == NOOK_OK)
+        result = tell_entities(world);
+    for (uint32_t i = 0; i < world->live.count && result == NOOK_OK; i++)
+        for (uint32_t k = 0; k < list->count; k++)
+            if (list->items[k].volume.id == world->live.items[i].occluder.volume.id)
+                list->items[k].mesh = world->live.items[i].occluder.mesh;
+    return result;
+}
+
+void nook_game_world_set_traced(nook_game_world *world, bool traced)
+{
+    world->traced = traced;
+}
+
+nook_result nook_game_world_voxelize(nook_game_world *world, nook_render_scene *scene, const nook_camera *camera,
+                                     double aspect)
+{
+    uint32_t version;
+    const nook_mesh_pose *poses = nook_game_world_poses(world, &version);
+    if (world->live.count == 0 || !poses)
+        return NOOK_OK;
+    nook_render_scene_pose(scene, poses, version);
+    return nook_live_volumes_voxelize(&world->live, world->ao, world->pose, version, scene, camera, aspect);
+}
+
 void nook_game_world_advance(nook_game_world *world, double seconds)
 {
     if (world->pose)
@@ -301,6 +362,8 @@ nook_result nook_game_world_update(nook_game_world *world, nook_ao *ao)
     nook_result result = nook_world_run_phase(world->entities, NOOK_PHASE_UPDATE);
     if (result == NOOK_OK)
         result = nook_world_run_phase(world->entities, NOOK_PHASE_PRE_RENDER);
+    if (result == NOOK_OK && world->traced && world->live.count > 0)
+        result = trace_poses(world);
     if (result != NOOK_OK)
         return result;
     if (world->pose)

@@ -70,6 +70,15 @@ void nook_game_world_advance(nook_game_world *world, double seconds);
 /** Of the scene's deformables, and their version, as in nook_frame; NULL where nothing is animated. */
 const nook_mesh_pose *nook_game_world_poses(const nook_game_world *world, uint32_t *out_version);
 
+/**
+ * Makes the volumes of deformables anew where their pose has changed and it matters for what a camera sees. After an update.
+ * @param scene  the world's, on the GPU; is put into the pose @return as nook_ao_voxelize
+ */
+nook_result nook_game_world_voxelize(nook_game_world *world, nook_render_scene *scene, const nook_camera *camera,
+                                     double aspect);
+/** Whether the next updates also give the reference the triangles of deformables as they are; false at first. */
+void nook_game_world_set_traced(nook_game_world *world, bool traced);
+
 /** What the last update collected; valid until the next. */
 const nook_draw *nook_game_world_draws(const nook_game_world *world, size_t *out_count);
 /** What it submitted to the AO; valid until the next. */

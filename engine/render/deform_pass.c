@@ -239,14 +239,23 @@ static void copy_results(const nook_render_scene *s)
     }
 }
 
-void nook_pass_deform(const nook_frame *frame)
+void nook_render_scene_pose(nook_render_scene *s, const nook_mesh_pose *poses, uint32_t version)
 {
-    nook_render_scene *s = (nook_render_scene *)(uintptr_t)frame->scene; /* its buffers are GL's, its version ours */
-    if (frame->poses == NULL || s->scene->deformable_count == 0 || s->deform.version == frame->pose_version)
+    if (poses == NULL || s->scene->deformable_count == 0 || s->deform.version == version)
         return;
-    update_numbers(s, frame->poses);
+    update_numbers(s, poses);
     compute_vertices(s);
     compute_normals(s);
     copy_results(s);
-    s->deform.version = frame->pose_version;
+    s->deform.version = version;
+}
+
+nook_buffer nook_render_scene_vertices(const nook_render_scene *scene)
+{
+    return scene->vertices;
+}
+
+nook_buffer nook_render_scene_indices(const nook_render_scene *scene)
+{
+    return scene->indices;
 }

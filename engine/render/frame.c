@@ -47,7 +47,7 @@ nook_result nook_frame_shadow(nook_renderer *renderer, const nook_frame *frame)
 {
     nook_result result = check(frame);
     if (result == NOOK_OK)
-        nook_pass_deform(frame);
+        nook_render_scene_pose(frame->scene, frame->poses, frame->pose_version);
     if (result == NOOK_OK)
         result = collect_visible(renderer, frame);
     return result == NOOK_OK ? nook_pass_shadow(renderer, frame) : result;

@@ -222,8 +222,6 @@ bool nook_grow(grow_list *list, size_t size);
 /** @return as nook_render_scene_create */
 nook_result nook_deform_create(nook_render_scene *scene);
 void nook_deform_destroy(nook_render_scene *scene);
-/** Puts the vertices of deformables into the frame's pose, unless they are in it. Before all passes that draw. */
-void nook_pass_deform(const nook_frame *frame);
 
 /* targets.c */
 nook_result nook_targets_create(nook_gpu *gpu, uint32_t width, uint32_t height, render_targets *out);

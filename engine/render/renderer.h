@@ -67,7 +67,7 @@ typedef struct nook_lights {
 
 /** What a frame is made from. Borrowed until nook_frame_finish returns. */
 typedef struct nook_frame {
-    const nook_render_scene *scene;
+    nook_render_scene *scene;
     const nook_draw *draws; /**< In any order; draws of one mesh become one instanced call. */
     size_t draw_count;
     const nook_mesh_pose *poses; /**< Per deformable of the scene; NULL: vertices are as the scene has them. */
@@ -122,6 +122,16 @@ typedef struct nook_gbuffer {
 nook_result nook_render_scene_create(nook_gpu *gpu, const nook_scene *scene, nook_render_scene **out_scene);
 void nook_render_scene_destroy(nook_render_scene *scene);         /**< NULL is allowed. */
 uint64_t nook_render_scene_bytes(const nook_render_scene *scene); /**< On the GPU, mip chains included. */
+
+/**
+ * Puts the vertices of deformables into a pose, unless they are in it; frames with these poses do the same. Before
+ * nook_render_scene_vertices are used otherwise.
+ * @param poses, version  as in nook_frame
+ */
+void nook_render_scene_pose(nook_render_scene *scene, const nook_mesh_pose *poses, uint32_t version);
+/** nook_vertex of the whole scene, those of deformables in their last pose; and its indices, as scene->primitives have them. */
+nook_buffer nook_render_scene_vertices(const nook_render_scene *scene);
+nook_buffer nook_render_scene_indices(const nook_render_scene *scene);
 
 /** The draws of a scene as it stands in its file: one for each node that has a mesh. @param out NULL only counts */
 size_t nook_scene_draws(const nook_scene *scene, nook_draw *out);

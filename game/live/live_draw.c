@@ -168,6 +168,7 @@ static nook_result follow(nook_live *live, const nook_camera *camera)
     nook_result result = NOOK_OK;
     if (!kept || resized) {
         live_truth_stop(live);
+        nook_game_world_set_traced(stage->world, keep);
         result = draw_gbuffer(live, kept ? &live->camera : camera);
     }
     live->frozen = keep;

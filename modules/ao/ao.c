@@ -93,6 +93,7 @@ void nook_ao_destroy(nook_ao *ao)
     volume_atlas_release(&ao->atlas);
     brick_pool_release(&ao->pool);
     ao_meshes_release(ao);
+    ao_voxelizer_release(ao);
     nook_buffer_destroy(ao->gpu, &ao->frame);
     ao->gpu->gl->DeleteSamplers(1, &ao->nearest_sampler);
     nook_texture_destroy(ao->gpu, &ao->occluder_texture);

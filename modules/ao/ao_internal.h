@@ -69,6 +69,13 @@ typedef struct ao_region {
     int32_t origin[2];        /**< begin, rounded down to whole groups. */
 } ao_region;
 
+/** What live volumes are made with; all zero before there is one. */
+typedef struct ao_voxelizer {
+    nook_texture slices[3]; /**< RGBA32UI: a bit for each of 128 layers along x, y, z. */
+    nook_framebuffer targets[3];
+    uint32_t vertex_array;
+} ao_voxelizer;
+
 struct nook_ao {
     nook_gpu *gpu;
     uint32_t width, height;
@@ -82,6 +89,7 @@ struct nook_ao {
     uint32_t nearest_sampler;      /**< Of the host's textures. */
     nook_texture occluder_texture; /**< The buffer's rows as texels. */
     volume_atlas atlas;
+    ao_voxelizer voxelizer;
     brick_pool pool;
     uint32_t next_volume_id;
     ao_mesh *meshes;
@@ -161,3 +169,4 @@ uint32_t ao_collect_meshes(nook_ao *ao, const nook_matrix *view_from_world);
 /** By id, in the time of a binary search. @return UINT32_MAX when there is none */
 uint32_t ao_mesh_index(const nook_ao *ao, uint32_t id);
 void ao_meshes_release(nook_ao *ao);
+void ao_voxelizer_release(nook_ao *ao);

@@ -119,6 +119,38 @@ nook_result nook_ao_add_volume(nook_ao *ao, const char *name, const void *bytes,
 nook_result nook_ao_extend_volume(nook_ao *ao, nook_ao_volume volume, const char *name, const void *bytes, size_t size);
 void nook_ao_remove_volume(nook_ao *ao, nook_ao_volume volume); /**< In all its kinds. */
 
+enum { NOOK_AO_LIVE_SIDE_MAX = 128 /**< Voxels along a side of a live volume, the empty border included. */ };
+
+/** Triangles in a mesh's buffers. */
+typedef struct nook_ao_triangle_range {
+    uint32_t first_index, index_count; /**< Into the index buffer; a multiple of 3. */
+    uint32_t first_vertex;             /**< Added to each index. */
+} nook_ao_triangle_range;
+
+/** A mesh on the GPU, in the shape that it has now. */
+typedef struct nook_ao_live_mesh {
+    uint32_t vertex_buffer; /**< GL name; a vertex begins with its position, three floats, metres, mesh space. */
+    uint32_t vertex_stride; /**< Bytes. */
+    uint32_t index_buffer;  /**< GL name; 32-bit. */
+    const nook_ao_triangle_range *ranges;
+    uint32_t range_count;
+    float box_min[3], box_max[3]; /**< Holds all of them, mesh space. What leaves the volume's room darkens nothing. */
+    double voxel_size;            /**< Metres, > 0. */
+} nook_ao_live_mesh;
+
+/**
+ * Makes room for a volume of a mesh that changes its shape; empty until nook_ao_voxelize. Removed like any other.
+ * @param size  voxels along x, y, z: each in [3, NOOK_AO_LIVE_SIDE_MAX]; a box takes its sides / voxel_size, and 4 more
+ * @return NOOK_E_RANGE, NOOK_E_MEMORY, NOOK_E_DEVICE; *out_volume is untouched then
+ */
+nook_result nook_ao_add_live_volume(nook_ao *ao, const char *name, const uint32_t size[3], nook_ao_volume *out_volume);
+/**
+ * Voxelises a mesh into a live volume, on the GPU, for the records that follow: three slicemaps, ORed. GL's framebuffer, viewport and
+ * tests are left as they were. The voxels of a mesh that stands still stay as they are while its box moves.
+ * @return NOOK_E_ARG a stale id, a voxel_size that is none; NOOK_E_MEMORY, NOOK_E_DEVICE
+ */
+nook_result nook_ao_voxelize(nook_ao *ao, nook_ao_volume volume, const nook_ao_live_mesh *mesh);
+
 /**
  * Keeps a copy of a triangle mesh for the reference.
  * @param positions  xyz of vertex_count vertices, metres, mesh space, finite

@@ -182,6 +182,13 @@ const atlas_entry *volume_atlas_find(const volume_atlas *atlas, uint32_t id)
     return i == UINT32_MAX ? NULL : &atlas->entries[i];
 }
 
+void volume_atlas_set_info(volume_atlas *atlas, uint32_t id, const nook_volume_info *info)
+{
+    uint32_t i = entry_index(atlas, id);
+    if (i != UINT32_MAX)
+        atlas->entries[i].info = *info;
+}
+
 /** Replaces the texture by a larger one and copies what was there. */
 static nook_result grow_texture(volume_atlas *atlas)
 {

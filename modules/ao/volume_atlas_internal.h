@@ -40,6 +40,8 @@ nook_result volume_atlas_add(volume_atlas *atlas, uint32_t id, nook_volume *volu
 void volume_atlas_remove(volume_atlas *atlas, uint32_t id); /**< An id that is not there is allowed. */
 /** @return NULL for a stale id */
 const atlas_entry *volume_atlas_find(const volume_atlas *atlas, uint32_t id);
+/** Says what lies in a volume's box now; no larger than the box. Ids that are stale are passed over. */
+void volume_atlas_set_info(volume_atlas *atlas, uint32_t id, const nook_volume_info *info);
 /** Brings the texture up to date. @return NOOK_E_MEMORY, NOOK_E_DEVICE */
 nook_result volume_atlas_flush(volume_atlas *atlas);
 /** Bytes of the texture. */

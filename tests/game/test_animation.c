@@ -95,14 +95,13 @@ static nook_scene_volumes bake(const nook_scene *scene, nook_log_capture *log)
     return volumes;
 }
 
-static void test_what_bends_while_it_plays_has_no_volume_and_says_so(void **state)
+static void test_what_bends_while_it_plays_is_not_baked(void **state)
 {
     (void)state;
     nook_log_capture log;
     nook_scene *scene = bone_scene_load(origin);
     nook_scene_volumes volumes = bake(scene, &log);
     assert_int_equal(volumes.volume_count, 0);
-    assert_non_null(strstr(log.text, "1 meshes change their shape while they play: they have no volume"));
     nook_volumes_free(&volumes);
     nook_scene_destroy(scene);
 }
@@ -151,7 +150,7 @@ int main(void)
         cmocka_unit_test(test_time_that_passes_bends_the_arm_and_comes_around),
         cmocka_unit_test(test_a_pose_keeps_its_version_while_no_time_passes),
         cmocka_unit_test(test_a_scene_without_motion_has_no_poses),
-        cmocka_unit_test(test_what_bends_while_it_plays_has_no_volume_and_says_so),
+        cmocka_unit_test(test_what_bends_while_it_plays_is_not_baked),
         cmocka_unit_test(test_what_stands_in_a_pose_has_the_volume_of_that_pose),
         cmocka_unit_test(test_a_clip_that_is_not_there_is_refused_with_the_nearest_name),
     };

@@ -128,7 +128,7 @@ static void test_the_gpu_bends_an_arm_as_the_cpu_does(void **state)
     posed_scene s = open_scene(gpu, bone_scene_load(origin));
     for (double t = 0.0; t <= 2.0; t += 0.25) {
         set_time(&s, 0, t);
-        nook_pass_deform(&s.frame);
+        nook_render_scene_pose(s.uploaded, s.frame.poses, s.frame.pose_version);
         assert_true(check_deformable(&s, gpu, 0) < 1e-6);
     }
     close_scene(&s);
@@ -155,7 +155,7 @@ static void test_the_gpu_poses_characters_as_the_cpu_does(void **state)
         posed_scene s = open_scene(gpu, scene);
         for (uint32_t clip = 0; clip < scene->clip_count; clip++) {
             set_time(&s, clip, 0.37 * scene->clips[clip].duration);
-            nook_pass_deform(&s.frame);
+            nook_render_scene_pose(s.uploaded, s.frame.poses, s.frame.pose_version);
             for (uint32_t d = 0; d < scene->deformable_count; d++)
                 if (!(check_deformable(&s, gpu, d) < 2e-6))
                     fail_msg("%s: clip %u, deformable %u: positions are off by more than 2e-6 of its size", path, clip,
@@ -172,15 +172,15 @@ static void test_a_pose_of_the_same_version_is_not_computed_again(void **state)
     nook_vertex before, after, changed;
     size_t last = (s.scene->vertex_count - 1) * sizeof before;
     set_time(&s, 0, 1.0);
-    nook_pass_deform(&s.frame);
+    nook_render_scene_pose(s.uploaded, s.frame.poses, s.frame.pose_version);
     nook_buffer_read(gpu, s.uploaded->vertices, last, &before, sizeof before);
     set_time(&s, 0, 2.0);
     s.frame.pose_version--;
-    nook_pass_deform(&s.frame);
+    nook_render_scene_pose(s.uploaded, s.frame.poses, s.frame.pose_version);
     nook_buffer_read(gpu, s.uploaded->vertices, last, &after, sizeof after);
     assert_memory_equal(&before, &after, sizeof before);
     s.frame.pose_version++;
-    nook_pass_deform(&s.frame);
+    nook_render_scene_pose(s.uploaded, s.frame.poses, s.frame.pose_version);
     nook_buffer_read(gpu, s.uploaded->vertices, last, &changed, sizeof changed);
     assert_memory_not_equal(&before, &changed, sizeof before);
     close_scene(&s);

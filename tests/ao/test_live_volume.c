@@ -1,0 +1,239 @@
+/* Volumes that the GPU makes anew, against those that are baked. */
+#include "modules/ao/ao_internal.h"
+#include "modules/bake/voxelize.h"
+#include "tests/support/log_capture.h"
+#include "tests/support/test_gpu.h"
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { RESOLUTION = 48, GRID = RESOLUTION + 3, SEGMENTS = 20, RINGS = 10, TRIANGLES = 2 * SEGMENTS * (RINGS - 1) };
+
+typedef struct soup {
+    float positions[TRIANGLES * 3 + 6][3];
+    uint32_t indices[TRIANGLES * 3 + 6];
+} soup;
+
+static void on_sphere(int ring, int segment, float turn, float out[3])
+{
+    float polar = 3.14159265f * (float)ring / RINGS,
+          around = 6.2831853f * (float)(segment % SEGMENTS) / SEGMENTS + turn;
+    out[0] = 0.9f * sinf(polar) * cosf(around);
+    out[1] = 0.9f * cosf(polar);
+    out[2] = 0.9f * sinf(polar) * sinf(around);
+}
+
+/* A closed ball in a cube of 2 m, whose corners two more triangles reach, so that both grids lie alike. */
+static void make_soup(soup *out, uint32_t seed)
+{
+    static const float corners[6][3] = { { -1, -1, -1 }, { -1, -1, -0.5f }, { -1, -0.5f, -1 },
+                                         { 1, 1, 1 },    { 1, 1, 0.5f },    { 1, 0.5f, 1 } };
+    float(*p)[3] = out->positions, turn = 0.1f * (float)seed;
+    for (int ring = 0; ring < RINGS; ring++)
+        for (int segment = 0; segment < SEGMENTS; segment++) {
+            if (ring > 0) {
+                on_sphere(ring, segment, turn, *p++);
+                on_sphere(ring, segment + 1, turn, *p++);
+                on_sphere(ring + 1, segment, turn, *p++);
+            }
+            if (ring < RINGS - 1) {
+                on_sphere(ring, segment + 1, turn, *p++);
+                on_sphere(ring + 1, segment + 1, turn, *p++);
+                on_sphere(ring + 1, segment, turn, *p++);
+            }
+        }
+    memcpy(p, corners, sizeof corners);
+    for (uint32_t i = 0; i < TRIANGLES * 3 + 6; i++)
+        out->indices[i] = i;
+}
+
+typedef struct fixture {
+    nook_ao *ao;
+    nook_gpu *gpu;
+    nook_ao_volume volume;
+    nook_buffer vertices, indices;
+    nook_ao_triangle_range part;
+    nook_ao_live_mesh mesh;
+    uint8_t *voxels; /* GRID^3 of the last voxelise */
+} fixture;
+
+static fixture open_fixture(nook_gpu *gpu, const soup *s)
+{
+    fixture f = { .gpu = gpu };
+    const nook_ao_desc desc = { .version = NOOK_AO_VERSION, .gpu = gpu, .width = 8, .height = 8 };
+    const uint32_t size[3] = { GRID, GRID, GRID };
+    assert_int_equal(nook_ao_create(&desc, &f.ao), NOOK_OK);
+    assert_int_equal(nook_ao_add_live_volume(f.ao, "soup", size, &f.volume), NOOK_OK);
+    assert_int_equal(nook_buffer_create(gpu, s->positions, sizeof s->positions, &f.vertices), NOOK_OK);
+    assert_int_equal(nook_buffer_create(gpu, s->indices, sizeof s->indices, &f.indices), NOOK_OK);
+    f.part = (nook_ao_triangle_range){ 0, TRIANGLES * 3 + 6, 0 };
+    f.mesh = (nook_ao_live_mesh){ .vertex_buffer = f.vertices.id,
+                                  .vertex_stride = 3 * sizeof(float),
+                                  .index_buffer = f.indices.id,
+                                  .range_count = 1,
+                                  .box_min = { -1, -1, -1 },
+                                  .box_max = { 1, 1, 1 },
+                                  .voxel_size = 2.0 / RESOLUTION };
+    f.voxels = calloc(GRID * GRID * GRID, 1);
+    assert_non_null(f.voxels);
+    return f;
+}
+
+static void voxelize(fixture *f)
+{
+    f->mesh.ranges = &f->part;
+    assert_int_equal(nook_ao_voxelize(f->ao, f->volume, &f->mesh), NOOK_OK);
+    const atlas_entry *entry = volume_atlas_find(&f->ao->atlas, f->volume.id);
+    assert_int_equal(entry->info.width, GRID);
+    nook_texture_read(f->gpu, f->ao->atlas.texture, GL_RED, GL_UNSIGNED_BYTE, f->voxels, GRID * GRID * GRID);
+}
+
+static void close_fixture(fixture *f)
+{
+    nook_buffer_destroy(f->gpu, &f->vertices);
+    nook_buffer_destroy(f->gpu, &f->indices);
+    nook_ao_destroy(f->ao);
+    free(f->voxels);
+}
+
+static nook_volume bake(const soup *s)
+{
+    nook_volume volume;
+    const nook_triangles triangles = { s->positions[0], 0, TRIANGLES * 3 + 6, s->indices, TRIANGLES * 3 + 6 };
+    const nook_voxelize_desc desc = { .resolution = RESOLUTION, .threads = 1 };
+    assert_int_equal(nook_voxelize(&triangles, &desc, &volume), NOOK_OK);
+    assert_int_equal(volume.info.width, RESOLUTION + 2);
+    return volume;
+}
+
+static int baked_at(const nook_volume *volume, int x, int y, int z)
+{
+    const int side = RESOLUTION + 2;
+    if (x < 0 || y < 0 || z < 0 || x >= side || y >= side || z >= side)
+        return 0;
+    return volume->voxels[(z * side + y) * side + x] != 0;
+}
+
+static int baked_near(const nook_volume *volume, int x, int y, int z)
+{
+    int near = 0;
+    for (int i = 0; i < 27; i++)
+        near = near || baked_at(volume, x + i % 3 - 1, y + i / 3 % 3 - 1, z + i / 9 - 1);
+    return near;
+}
+
+static int live_near(const fixture *f, int x, int y, int z)
+{
+    int near = 0;
+    for (int i = 0; i < 27; i++) {
+        int p[3] = { x + i % 3 - 1, y + i / 3 % 3 - 1, z + i / 9 - 1 };
+        bool inside = p[0] >= 0 && p[1] >= 0 && p[2] >= 0 && p[0] < GRID && p[1] < GRID && p[2] < GRID;
+        near = near || (inside && f->voxels[(p[2] * GRID + p[1]) * GRID + p[0]] != 0);
+    }
+    return near;
+}
+
+static void test_slicemaps_mark_what_the_bake_marks(void **state)
+{
+    nook_gpu *gpu = test_gpu_of(state);
+    static soup s;
+    for (uint32_t seed = 1; seed <= 3; seed++) {
+        make_soup(&s, seed);
+        fixture f = open_fixture(gpu, &s);
+        nook_volume volume = bake(&s);
+        int marked = 0, more = 0, fewer = 0;
+        voxelize(&f);
+        for (int z = 0; z < GRID; z++)
+            for (int y = 0; y < GRID; y++)
+                for (int x = 0; x < GRID; x++) {
+                    int live = f.voxels[(z * GRID + y) * GRID + x] != 0, baked = baked_at(&volume, x, y, z);
+                    marked += baked;
+                    more += live && !baked;
+                    fewer += baked && !live;
+                    assert_true(!live || baked_near(&volume, x, y, z));
+                    assert_true(!baked || live_near(&f, x, y, z));
+                }
+        if (more + fewer >
+            marked / 20) /* corners are snapped to 1/256 of a pixel, which steep triangles turn into layers */
+            fail_msg("of %d baked voxels %d are missing, %d are too many", marked, fewer, more);
+        nook_volume_free(&volume);
+        close_fixture(&f);
+    }
+}
+
+static void test_a_volume_made_anew_forgets_what_was_in_it(void **state)
+{
+    nook_gpu *gpu = test_gpu_of(state);
+    static soup s;
+    make_soup(&s, 7);
+    fixture f = open_fixture(gpu, &s);
+    voxelize(&f);
+    f.part.first_index = TRIANGLES * 3;
+    f.part.index_count = 6;
+    voxelize(&f);
+    int marked = 0;
+    for (int i = 0; i < GRID * GRID * GRID; i++)
+        marked += f.voxels[i] != 0;
+    assert_true(marked > 50 && marked < 400); /* two triangles of 12 by 12 voxels */
+    close_fixture(&f);
+}
+
+static void test_grids_move_by_whole_voxels(void **state)
+{
+    nook_gpu *gpu = test_gpu_of(state);
+    static soup s;
+    make_soup(&s, 7);
+    fixture f = open_fixture(gpu, &s);
+    f.mesh.ranges = &f.part;
+    for (float by = -0.3f; by < 0.3f; by += 0.0371f) {
+        f.mesh.box_min[0] = -0.5f + by;
+        f.mesh.box_max[0] = 0.5f + by;
+        assert_int_equal(nook_ao_voxelize(f.ao, f.volume, &f.mesh), NOOK_OK);
+        const nook_volume_info *info = &volume_atlas_find(&f.ao->atlas, f.volume.id)->info;
+        double whole = info->origin[0] / info->voxel_size;
+        assert_true(fabs(whole - round(whole)) < 1e-9);
+        assert_true(info->origin[0] + info->voxel_size <= (double)f.mesh.box_min[0] + 1e-9);
+        assert_true(info->origin[0] + (info->width - 1.0) * info->voxel_size >= (double)f.mesh.box_max[0] - 1e-9);
+    }
+    close_fixture(&f);
+}
+
+static void test_sizes_and_ids_that_cannot_be_are_refused(void **state)
+{
+    nook_gpu *gpu = test_gpu_of(state);
+    static soup s;
+    nook_log_capture log;
+    const uint32_t large[3] = { 64, NOOK_AO_LIVE_SIDE_MAX + 1, 64 }, flat[3] = { 64, 64, 2 };
+    nook_ao_volume volume = { 77 };
+    make_soup(&s, 7);
+    fixture f = open_fixture(gpu, &s);
+    nook_log_capture_begin(&log);
+    assert_int_equal(nook_ao_add_live_volume(f.ao, "large", large, &volume), NOOK_E_RANGE);
+    assert_int_equal(nook_ao_add_live_volume(f.ao, "flat", flat, &volume), NOOK_E_RANGE);
+    assert_int_equal(nook_ao_voxelize(f.ao, volume, &f.mesh), NOOK_E_ARG);
+    f.mesh.voxel_size = 0.0;
+    assert_int_equal(nook_ao_voxelize(f.ao, f.volume, &f.mesh), NOOK_E_ARG);
+    nook_log_capture_end();
+    assert_int_equal(volume.id, 77);
+    close_fixture(&f);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(test_slicemaps_mark_what_the_bake_marks, test_gpu_setup, test_gpu_teardown),
+        cmocka_unit_test_setup_teardown(test_a_volume_made_anew_forgets_what_was_in_it, test_gpu_setup,
+                                        test_gpu_teardown),
+        cmocka_unit_test_setup_teardown(test_grids_move_by_whole_voxels, test_gpu_setup, test_gpu_teardown),
+        cmocka_unit_test_setup_teardown(test_sizes_and_ids_that_cannot_be_are_refused, test_gpu_setup,
+                                        test_gpu_teardown),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
