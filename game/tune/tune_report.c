@@ -130,11 +130,20 @@ static void print_proof(const nook_tune_result *result, const nook_tune_options 
         fprintf(stream, "Written: %s\n", options->out);
 }
 
+/* What was measured in one view has no standard error. */
+static const char *print_standard(const char *format, double standard, char out[32])
+{
+    if (!isfinite(standard))
+        return "unknown";
+    snprintf(out, 32, format, standard);
+    return out;
+}
+
 void nook_tune_report_print(const nook_tune_result *result, const nook_tune_options *options, FILE *stream)
 {
     const nook_tune_outcome *outcome = &result->outcome;
     const nook_tune_estimate *predicted = &result->predicted;
-    char text[NOOK_SETTING_TEXT_MAX], goal[96];
+    char text[NOOK_SETTING_TEXT_MAX], goal[96], error[32], ms[32];
     nook_setting_print(&outcome->best.setting, text);
     print_goal(&options->goal, goal);
     if (outcome->fits)
@@ -148,8 +157,9 @@ void nook_tune_report_print(const nook_tune_result *result, const nook_tune_opti
         fprintf(stream, "; held back %.4f (%+.1f %% +- %.1f %%), %.2f ms", result->actual.cost.error,
                 percent * result->difference, percent * result->difference_standard, result->actual.cost.ms);
     else
-        fprintf(stream, " (+- %.4f and %.2f, which must be within too)", predicted->error_standard,
-                predicted->ms_standard);
+        fprintf(stream, " (+- %s and %s, which must be within too)",
+                print_standard("%.4f", predicted->error_standard, error),
+                print_standard("%.2f", predicted->ms_standard, ms));
     fprintf(stream, "; %u of %.0f settings tried, %.0f s\n", outcome->tried, result->settings, result->seconds);
 }
 

@@ -78,6 +78,8 @@ test_when_nothing_fits_the_nearest_is_told_and_nothing_written() {
     [[ $(tail -n 1 "$tmp/said") =~ error\ 0\.[0-9]+,\ [0-9.]+\ ms\ \(\+-\ .*\)\;\ 8\ of ]]
     assert_fails 1 tune --max-error 0.000001 --max-ms 0.001 --tries 4 --techniques ssao --out "$tmp/none.txt" >"$tmp/said" 2>&1
     assert_holds "$(tail -n 1 "$tmp/said")" 'nothing within error 1e-06 and 0.001 ms; nearest ssao'
+    assert_fails 1 tune --max-ms 0.001 --tries 5 --cameras 2 --out "$tmp/none.txt" >"$tmp/said" 2>&1 # timed in one view
+    [[ $(tail -n 1 "$tmp/said") =~ ms\ \(\+-\ [0-9.]+\ and\ ([0-9.]+|unknown),\ which ]]
     [ ! -e "$tmp/none.txt" ]
 }
 
