@@ -26,6 +26,7 @@ typedef struct viewer {
     uint32_t camera;   /* the next one that C goes to */
     bool moving;       /* the picture is coarse */
     bool jumped;       /* to another camera */
+    bool help;         /* keys are listed */
     char setting[128]; /* technique of the active view when it was last logged */
     double moved_ms, polled_ms;
 } viewer;
@@ -64,6 +65,30 @@ static void tell_technique(viewer *v)
         return;
     memcpy(v->setting, name, sizeof name);
     nook_log_info("view: technique %s", name);
+}
+
+/* The keys and drags that are the window's own, beside those that nook_live lists at F1. */
+static void draw_help(nook_overlay *overlay)
+{
+    static const nook_overlay_colour gold = { 255, 214, 120, 255 };
+    static const char *const lines[][2] = {
+        { "drag left", "orbit" },
+        { "drag right", "pan" },
+        { "scroll", "zoom" },
+        { "W A S D Q E, arrows", "fly" },
+        { "V", "the next buffer; Shift: back" },
+        { "C", "the next camera of the file" },
+        { "Esc", "quit" },
+    };
+    const nook_overlay_panel panel = { .title = "Looking##help", .x = 10.0, .y = -10.0, .passive = true };
+    if (nook_overlay_panel_begin(overlay, &panel)) {
+        for (size_t i = 0; i < NOOK_COUNT(lines); i++) {
+            nook_overlay_text_coloured(overlay, gold, lines[i][0]);
+            nook_overlay_same_line_at(overlay, 9.5);
+            nook_overlay_text(overlay, lines[i][1]);
+        }
+    }
+    nook_overlay_panel_end(overlay);
 }
 
 static void read_keys(viewer *v, const nook_input *input)
@@ -188,6 +213,8 @@ static void show_title(const viewer *v)
 static nook_result draw(viewer *v, const nook_input *input)
 {
     nook_camera camera = nook_orbit_camera(&v->orbit);
+    if (v->help)
+        draw_help(nook_live_overlay(v->live));
     nook_live_set_coarse(v->live, v->moving);
     nook_live_hold(v->live, !v->moving);
     nook_result result = nook_live_draw(v->live, &camera);
@@ -233,6 +260,8 @@ static nook_result loop(viewer *v)
         nook_context_poll(v->stage->context, &input);
         if (input.close_requested || input.pressed[NOOK_KEY_ESCAPE])
             return NOOK_OK;
+        if (input.pressed[NOOK_KEY_F1]) /* nook_live takes it too */
+            v->help = !v->help;
         nook_live_input(v->live, &input, true, &left);
         read_keys(v, &left);
         move(v, &left);

@@ -54,6 +54,18 @@ test_dragging_turns_the_picture_and_a_new_size_is_filled() {
         [ "$(identify -format %wx%h "$tmp/resized.png")" = 500x300 ]'
 }
 
+test_f1_lists_the_keys_of_the_window_too() {
+    in_window '
+        press 0; wait_for 30 title_has "0 none"
+        xdotool windowsize "$window" 720 400
+        # gold is the colour of the names of keys; those of the window itself stand on the left
+        gold() { import -window "$window" png:- | convert png:- -crop 300x400+0+0 +repage -fuzz 12% -fill black +opaque "#ffd678" -format "%[fx:mean>0.001]" info:; }
+        is_gold() { [ "$(gold)" = "$1" ]; }
+        is_gold 0
+        press F1; wait_for 30 is_gold 1
+        press F1; wait_for 30 is_gold 0'
+}
+
 test_no_window_is_opened_when_none_is_wanted() {
     need_display
     with_display "$program" compare "$crate" --size 64x64 --frames 1 --reference-rays 4 --cache "$tmp/cache" \
