@@ -108,7 +108,7 @@ nook_result nook_texture_create_mipped(nook_gpu *gpu, uint32_t format, uint32_t 
 /**
  * A buffer as a row of texels, for texelFetch of a samplerBuffer or usamplerBuffer: on software GL half the time of a load from storage.
  * Shows what the buffer holds whenever it is read; destroy it before the buffer.
- * @param format GL_RGBA32F, GL_RGBA32UI or GL_RG32UI
+ * @param format GL_RGBA32F, GL_RGBA32UI, GL_RG32UI or GL_R8UI
  * @return NOOK_E_RANGE more texels than the device takes: max_texture_buffer_size; NOOK_E_MEMORY
  */
 nook_result nook_texture_create_buffer(nook_gpu *gpu, uint32_t format, nook_buffer buffer, nook_texture *out_texture);

@@ -105,7 +105,17 @@ nook_result nook_texture_create_mipped(nook_gpu *gpu, uint32_t format, uint32_t 
 /* Bytes; 0 for a format that nobody here shows a buffer in. */
 static size_t buffer_texel_size(uint32_t format)
 {
-    return format == GL_RGBA32F || format == GL_RGBA32UI ? 16 : format == GL_RG32UI ? 8 : 0;
+    switch (format) {
+    case GL_RGBA32F:
+    case GL_RGBA32UI:
+        return 16;
+    case GL_RG32UI:
+        return 8;
+    case GL_R8UI:
+        return 1;
+    default:
+        return 0;
+    }
 }
 
 nook_result nook_texture_create_buffer(nook_gpu *gpu, uint32_t format, nook_buffer buffer, nook_texture *out_texture)

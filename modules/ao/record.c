@@ -9,7 +9,7 @@
 _Static_assert(offsetof(frame_block, view_from_world) == 96, "std140 places view_from_world at 96");
 _Static_assert(offsetof(frame_block, origin) == 144 && sizeof(frame_block) == 208, "std140 places origin at 144");
 
-enum { BINDING_FETCHES = 2, AO_TEXTURE_UNITS = 7 };
+enum { BINDING_FETCHES = 2, AO_TEXTURE_UNITS = 8 };
 enum { COUNT_SUMS = 1, COUNT_PIXELS = 2 }; /* shaders/ao/counter.glsl */
 
 static const double RIGID_TOLERANCE = 1e-5; /* what a product of a few matrices in float leaves */
@@ -170,6 +170,7 @@ static nook_ao_pass make_pass(nook_ao *ao, const nook_ao_frame *frame, uint32_t 
         .progress = ao->progress,
         .progress_user = ao->progress_user,
         .volume_atlas = ao->atlas.texture,
+        .volume_atlas_version = ao->atlas.version,
         .bricks = ao->pool.bricks.texture,
         .surfels = ao->pool.surfels.texture,
         .line_max = ao->line_max,

@@ -14,7 +14,7 @@
 extern "C" {
 #endif
 
-#define NOOK_AO_TECHNIQUE_VERSION 3
+#define NOOK_AO_TECHNIQUE_VERSION 4
 
 /** Triangles for the reference, in mesh space. */
 typedef struct nook_ao_mesh_view {
@@ -64,9 +64,11 @@ typedef struct nook_ao_pass {
 
     /** NOOK_AO_IN_VOLUMES: bound by the host for modules/ao/volumes.h; see shaders/ao/occluders.glsl. */
     nook_texture volume_atlas; /**< R8 3D. Binding 2. */
-    nook_texture bricks;       /**< Texture buffer RGBA32UI, of all surfel volumes: docs/surfel_bricks.md. Binding 5. */
-    nook_texture surfels;      /**< Texture buffer RG32UI. Binding 6. */
-    uint32_t line_max;         /**< More voxels than this no straight line crosses in any of the occluders. */
+    uint32_t
+        volume_atlas_version; /**< Another one when the atlas, or what it holds, is another: for what is made of it. */
+    nook_texture bricks;      /**< Texture buffer RGBA32UI, of all surfel volumes: docs/surfel_bricks.md. Binding 5. */
+    nook_texture surfels;     /**< Texture buffer RG32UI. Binding 6. */
+    uint32_t line_max;        /**< More voxels than this no straight line crosses in any of the occluders. */
     nook_texture occluder_texture; /**< RGBA32F of a buffer: the occluders' rows. Binding 3. */
     nook_buffer occluders;         /**< That buffer. */
     uint32_t occluder_count;

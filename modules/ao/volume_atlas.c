@@ -206,6 +206,7 @@ static nook_result grow_texture(volume_atlas *atlas)
         nook_texture_destroy(gpu, &old);
     }
     atlas->texture = grown;
+    atlas->version++;
     return NOOK_OK;
 }
 
@@ -224,6 +225,7 @@ nook_result volume_atlas_flush(volume_atlas *atlas)
                                entry->pending, (size_t)box_voxels(entry->box.size));
         free(entry->pending);
         entry->pending = NULL;
+        atlas->version++;
     }
     return NOOK_OK;
 }

@@ -27,6 +27,7 @@ typedef struct volume_atlas {
     uint32_t entry_count, entry_capacity;
     atlas_box *free_boxes;
     uint32_t free_count, free_capacity;
+    uint32_t version; /**< Another one when the texture, or what it holds, is another. */
 } volume_atlas;
 
 void volume_atlas_init(volume_atlas *atlas, nook_gpu *gpu);

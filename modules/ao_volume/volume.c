@@ -1,14 +1,23 @@
 #include "modules/ao_volume/volume.h"
 #include "modules/ao/direction_texture.h"
+#include "modules/ao_volume/corners.h"
 #include "modules/ao_volume/cut_internal.h"
 #include "modules/bake/volume_file.h"
 
 #define NOOK_PARAM_STRUCT volume_params
 #define NOOK_PARAM_FILE "modules/ao_volume/params.def"
 #include "engine/core/param_block.inl"
+#include <stdio.h>
 
-enum { COMBINE_MULTIPLY = 0, KIND_SURFEL = 1 };
-enum { TILE_SIZE = 8, BINDING_DIRECTIONS = 4, BINDING_AGAIN = 5, BINDING_VISIBILITY = 0, BINDING_KEPT = 1 };
+enum { COMBINE_MULTIPLY = 0, KIND_SURFEL = 1, SAMPLING_CORNERS = 1 };
+enum {
+    TILE_SIZE = 8,
+    BINDING_DIRECTIONS = 4,
+    BINDING_AGAIN = 5,
+    BINDING_CORNERS = 7,
+    BINDING_VISIBILITY = 0,
+    BINDING_KEPT = 1
+};
 enum { LOCATION_PART = 0, LOCATION_OCCLUDERS = 1 };
 
 /**
@@ -20,6 +29,7 @@ enum { TURNS_PER_VOXEL = 2, TURNS_OF_SORTING = 5, TURNS_USUALLY = 128 };
 typedef struct volume_state {
     nook_direction_texture directions;
     nook_buffer again; /**< Groups x, y, z of dispatches that do the work again: x is 0 until loops were ended. */
+    volume_corners corners;
     nook_texture kept; /**< Of the trace's size, R32F or, of surfels, RGBA32F; id 0 until a cut needs it. */
 } volume_state;
 
@@ -35,6 +45,7 @@ static void destroy(void *state, nook_gpu *gpu)
     nook_direction_texture_release(&s->directions, gpu);
     nook_buffer_destroy(gpu, &s->again);
     nook_texture_destroy(gpu, &s->kept);
+    volume_corners_release(&s->corners, gpu);
 }
 
 static uint32_t at_most(uint32_t highest, uint32_t value)
@@ -140,11 +151,26 @@ static volume_task make_task(const volume_params *p, const nook_ao_pass *pass)
     return task;
 }
 
+/** The shader of these parameters, with what it reads of the volumes bound. */
+static nook_result choose_program(volume_state *s, const volume_params *p, const nook_ao_pass *pass,
+                                  nook_program *out_program)
+{
+    char defines[64];
+    int surfels = p->kind == KIND_SURFEL, corners = !surfels && p->sampling == SAMPLING_CORNERS;
+    nook_result result = corners ? volume_corners_fit(&s->corners, pass) : NOOK_OK;
+    if (result != NOOK_OK)
+        return result;
+    if (corners)
+        nook_bind_texture(pass->gpu, BINDING_CORNERS, s->corners.texture);
+    snprintf(defines, sizeof defines, "%s%s", corners ? "#define CORNERS\n" : "", nook_ao_pass_defines(pass));
+    return nook_program_compute(pass->gpu, surfels ? "shaders/ao/surfel.comp.glsl" : "shaders/ao/volume.comp.glsl",
+                                defines, out_program);
+}
+
 static nook_result record(void *state, const void *params, const nook_ao_pass *pass)
 {
     volume_state *s = state;
     const volume_params *p = params;
-    int surfels = p->kind == KIND_SURFEL;
     if (pass->occluder_count == 0) {
         leave_open(pass);
         return NOOK_OK;
@@ -152,9 +178,7 @@ static nook_result record(void *state, const void *params, const nook_ao_pass *p
     volume_task task = make_task(p, pass);
     nook_result result = nook_direction_texture_fit(&s->directions, pass->gpu, task.most.rays, pass->seed);
     if (result == NOOK_OK)
-        result =
-            nook_program_compute(pass->gpu, surfels ? "shaders/ao/surfel.comp.glsl" : "shaders/ao/volume.comp.glsl",
-                                 nook_ao_pass_defines(pass), &task.program);
+        result = choose_program(s, p, pass, &task.program);
     return result == NOOK_OK ? trace(s, pass, &task) : result;
 }
 
@@ -168,7 +192,7 @@ const nook_ao_technique nook_ao_volume_technique = {
     .param_count = NOOK_COUNT(param_table),
     .params_size = sizeof(volume_params),
     .state_size = sizeof(volume_state),
-    .state_version = 4,
+    .state_version = 5,
     .create = create,
     .destroy = destroy,
     .record = record,

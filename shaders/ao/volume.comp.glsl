@@ -9,6 +9,36 @@ const int GUARD_SLAB = 0;
 const float FILTER_PRECISION = 0.015; // voxels: hardware interpolates with 8-bit weights, three axes of 1/256 and a little
 const float NO_HIT = 1e30;
 
+#ifdef CORNERS
+layout(binding = 7) uniform usamplerBuffer corners; // corners.comp.glsl
+
+ivec3 atlas_grid()
+{
+    return textureSize(volume_atlas, 0);
+}
+
+// The filtered volume at a voxel position. Here the mean of eight bits.
+float density(Occluder o, vec3 voxel, ivec3 size)
+{
+    vec3 place = voxel - 0.5, cell = floor(place), far = place - cell, near = 1.0 - far;
+    ivec3 at = ivec3(o.place.xyz + cell);
+    ivec4 bits = ivec4(fetch_record(corners, (at.z * size.y + at.y) * size.x + at.x).r) >> ivec4(0, 1, 2, 3);
+    vec4 mean = vec4(bits & 1) * near.z + vec4(bits >> 4 & 1) * far.z;
+    vec2 line = mean.xy * near.y + mean.zw * far.y;
+    return line.x * near.x + line.y * far.x;
+}
+#else
+vec3 atlas_grid()
+{
+    return 1.0 / vec3(textureSize(volume_atlas, 0));
+}
+
+float density(Occluder o, vec3 voxel, vec3 texel)
+{
+    return fetch_filtered(volume_atlas, (o.place.xyz + voxel) * texel).r;
+}
+#endif
+
 // A fragment as one occluder's voxels see it.
 struct Receiver {
     vec3 voxel;  // position
@@ -77,14 +107,13 @@ float march(Occluder o, Receiver r, vec3 d, float cosine, float limit, float jit
     float needed = params.stepping == STEPPING_FIXED ? range * float(params.steps) / frame.r_max : range / shell;
     float count = clamp(ceil(needed), 1.0, float(params.steps));
     float dr = params.stepping == STEPPING_FIXED ? frame.r_max / float(params.steps) : range / count;
-    vec3 texel = 1.0 / vec3(textureSize(volume_atlas, 0));
     // The mean hit lies dr/2 behind the filtered layer's front, the surface half a layer behind it.
     float correction = 0.5 * (shell - dr), last = min(path.end, limit - correction);
     float t = path.start + jitter * dr;
     for (int i = 0; i < int(count) && t < last; i++, t += dr) {
         vec3 voxel = t < path.leave ? path.lifted + path.across * t : path.origin + path.along * t;
         voxel = clamp(voxel, vec3(MARGIN), o.size.xyz - MARGIN);
-        if (fetch_filtered(volume_atlas, (o.place.xyz + voxel) * texel).r >= params.threshold)
+        if (density(o, voxel, atlas_grid()) >= params.threshold)
             return max(t + correction, 0.0);
     }
     return NO_HIT;

@@ -99,6 +99,13 @@ static void test_volume_sees_nothing_above_a_floor_at_other_thresholds(void **st
     check_floor_sweep(state, "lifted", "matched", "0.8", 8);
 }
 
+static void test_volume_sees_nothing_above_a_floor_by_corners(void **state)
+{
+    ao_fixture_param(*state, "volume.sampling", "corners");
+    check_floor_sweep(state, "lifted", "matched", "0.5", 2);
+    ao_fixture_param(*state, "volume.sampling", "filter");
+}
+
 static double measure_box(ao_fixture *fixture, double side, uint32_t resolution)
 {
     nook_fixture_mesh mesh = { 0 };
@@ -276,6 +283,7 @@ int main(void)
         cmocka_unit_test(test_volume_sees_nothing_above_a_floor_at_any_phase_and_tilt),
         cmocka_unit_test(test_volume_sees_nothing_above_a_floor_with_the_papers_guard_direction_and_steps),
         cmocka_unit_test(test_volume_sees_nothing_above_a_floor_at_other_thresholds),
+        cmocka_unit_test(test_volume_sees_nothing_above_a_floor_by_corners),
         cmocka_unit_test(test_volume_is_closed_in_a_closed_box_within_eight_voxels),
         cmocka_unit_test(test_volume_union_counts_a_wall_once_and_multiply_squares_it),
         cmocka_unit_test(test_volume_union_adds_opposite_walls_and_multiply_falls_short),
