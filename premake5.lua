@@ -92,6 +92,7 @@ library("nook_imgui", cpp_project, "engine/overlay", "/**.cpp") -- the shim arou
 library("nook_bake", c_project, "modules/bake", "/**.c")
 library("nook_ao", c_project, "modules/ao", "/*.c")
 library("nook_ao_ecs", c_project, "modules/ao/ecs", "/**.c") -- joins the two: the core itself knows no ECS
+library("nook_trace", c_project, "modules/trace", "/**.c")
 local techniques = os.matchdirs("modules/ao_*")
 table.sort(techniques)
 for _, folder in ipairs(techniques) do library("nook_" .. path.getname(folder), c_project, folder, "/**.c") end
@@ -133,7 +134,7 @@ end
 exchangeable("game", "game/entry/game_entry.c", exchanged)
 for _, folder in ipairs(techniques) do
   local name = path.getname(folder)
-  exchangeable(name, "modules/ao/entry/technique_entry.c", { "nook_" .. name, "nook_ao" })
+  exchangeable(name, "modules/ao/entry/technique_entry.c", { "nook_" .. name, "nook_trace", "nook_ao" })
   defines { "NOOK_TECHNIQUE=" .. name:match("^ao_(.*)") }
 end
 

@@ -3,7 +3,7 @@
 #include "game/live/history.h"
 #include "game/live/live.h"
 #include "game/settings/settings_file.h"
-#include "modules/ao_reference/refine.h"
+#include "modules/trace/refine.h"
 
 enum {
     LIVE_PATH_SIZE = 1024,

@@ -20,6 +20,7 @@ static nook_module_builtin describe_technique(const nook_ao_technique *technique
     snprintf(part->name, sizeof part->name, "ao_%s", technique->name);
     snprintf(part->folder, sizeof part->folder, "modules/ao_%s/", technique->name);
     part->folders[0] = part->folder;
+    part->folders[1] = "modules/trace/";
     part->module = (nook_module){
         .version = NOOK_MODULE_VERSION, .name = part->name, .kind = NOOK_AO_TECHNIQUE_KIND, .interface = technique
     };

@@ -7,7 +7,7 @@ enum { NOOK_PLAY_NAME_MAX = 64 };
 /** A technique that is linked in, as the part of its name. */
 typedef struct nook_play_part {
     char name[NOOK_PLAY_NAME_MAX], folder[NOOK_PLAY_NAME_MAX]; /**< "ao_gtao", "modules/ao_gtao/". */
-    const char *folders[2];
+    const char *folders[3];                                    /**< That and what techniques share. */
     nook_module module;
 } nook_play_part;
 

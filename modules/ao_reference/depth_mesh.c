@@ -2,7 +2,7 @@
 #include "engine/core/surface.h"
 #include "engine/core/vector.h"
 #include "modules/ao_reference/depth_mesh_internal.h"
-#include "modules/ao_reference/pixel_internal.h"
+#include "modules/trace/pixel.h"
 #include <stdlib.h>
 
 /** The points of one row; z is 0 where nothing is seen. */
@@ -14,8 +14,8 @@ static void read_row(const nook_ao_pass *pass, const float *depth, const uint16_
         out[x] = (nook_surface_point){ .position = { 0.0 } };
         if (!(depth[i] > 0.0f))
             continue;
-        reference_pixel_position(pass, x, y, (double)depth[i], out[x].position);
-        reference_decode_normal(normal + 2 * i, out[x].normal);
+        nook_pixel_position(pass, x, y, (double)depth[i], out[x].position);
+        nook_pixel_normal(normal + 2 * i, out[x].normal);
     }
 }
 

@@ -2,7 +2,7 @@
 #include "engine/core/jobs.h"
 #include "engine/core/log.h"
 #include "modules/ao_reference/depth_mesh_internal.h"
-#include "modules/ao_reference/pixel_rays_internal.h"
+#include "modules/trace/pixel_rays.h"
 #include <stdlib.h>
 
 #define NOOK_PARAM_STRUCT reference_params
@@ -12,7 +12,7 @@
 /** One record's work on the CPU. */
 typedef struct image_work {
     const nook_ao_pass *pass;
-    pixel_work rays;
+    nook_trace_work rays;
     uint32_t first_row;
     float *visibility; /**< width * height. */
 } image_work;
@@ -20,7 +20,7 @@ typedef struct image_work {
 enum { BAND_ROWS = 8 /* rows between two calls of progress */ };
 
 typedef struct reference_state {
-    tracer *tracer;
+    nook_tracer *tracer;
 } reference_state;
 
 static void trace_rows(void *user, size_t first, size_t last, unsigned worker)
@@ -29,8 +29,8 @@ static void trace_rows(void *user, size_t first, size_t last, unsigned worker)
     const image_work *work = user;
     uint32_t width = work->pass->width;
     for (size_t row = work->first_row + first; row < work->first_row + last; row++) {
-        reference_trace_pixels(&work->rays, work->pass->begin[0], work->pass->end[0], (uint32_t)row,
-                               work->visibility + row * width);
+        nook_trace_pixels(&work->rays, work->pass->begin[0], work->pass->end[0], (uint32_t)row,
+                          work->visibility + row * width);
     }
 }
 
@@ -57,30 +57,32 @@ static void write_wanted(const nook_ao_pass *pass, const float *visibility)
 
 enum { SEES_SCENE, SEES_SCREEN }; /* the choices of reference.sees */
 
-static nook_result show_screen(tracer *t, const nook_ao_pass *pass, const float *depth, const uint16_t *normal)
+static nook_result show_screen(nook_tracer *t, const nook_ao_pass *pass, const float *depth, const uint16_t *normal)
 {
     depth_mesh mesh;
     nook_result result = depth_mesh_create(pass, depth, normal, &mesh);
     if (result != NOOK_OK)
         return result;
-    result = tracer_update_triangles(t, mesh.positions, mesh.vertex_count, mesh.indices, mesh.index_count);
+    result = nook_tracer_update_triangles(t, mesh.positions, mesh.vertex_count, mesh.indices, mesh.index_count);
     depth_mesh_free(&mesh);
     return result;
 }
 
 /** Everything the trace needs in one block: points, depth, visibility, normals. */
-static nook_result trace_with_memory(const nook_ao_pass *pass, const reference_params *params, tracer *t, void *memory)
+static nook_result trace_with_memory(const nook_ao_pass *pass, const reference_params *params, nook_tracer *t,
+                                     void *memory)
 {
     size_t pixels = (size_t)pass->width * pass->height;
-    ray_point *points = memory;
+    nook_ray_point *points = memory;
     float *depth = (float *)(void *)(points + params->rays), *visibility = depth + pixels;
     uint16_t *normal = (uint16_t *)(void *)(visibility + pixels);
     nook_texture_read(pass->gpu, pass->depth, GL_RED, GL_FLOAT, depth, pixels * sizeof *depth);
     nook_texture_read(pass->gpu, pass->normal, GL_RG, GL_UNSIGNED_SHORT, normal, pixels * 2 * sizeof *normal);
-    nook_result result = params->sees == SEES_SCREEN ? show_screen(t, pass, depth, normal) : tracer_update(t, pass);
+    nook_result result =
+        params->sees == SEES_SCREEN ? show_screen(t, pass, depth, normal) : nook_tracer_update(t, pass);
     if (result != NOOK_OK)
         return result;
-    ray_points_fill(points, (uint32_t)params->rays);
+    nook_ray_points_fill(points, (uint32_t)params->rays);
     image_work work = { .pass = pass,
                         .rays = { .pass = pass,
                                   .triangles = t,
@@ -99,14 +101,14 @@ static nook_result create(void *state, nook_gpu *gpu)
 {
     (void)gpu;
     reference_state *s = state;
-    return tracer_create(0, &s->tracer);
+    return nook_tracer_create(0, &s->tracer);
 }
 
 static void destroy(void *state, nook_gpu *gpu)
 {
     (void)gpu;
     reference_state *s = state;
-    tracer_destroy(s->tracer);
+    nook_tracer_destroy(s->tracer);
     s->tracer = NULL;
 }
 
@@ -115,7 +117,7 @@ static nook_result record(void *state, const void *params, const nook_ao_pass *p
     reference_state *s = state;
     const reference_params *p = params;
     size_t pixels = (size_t)pass->width * pass->height;
-    void *memory = malloc((size_t)p->rays * sizeof(ray_point) + 3 * pixels * sizeof(float));
+    void *memory = malloc((size_t)p->rays * sizeof(nook_ray_point) + 3 * pixels * sizeof(float));
     if (!memory)
         return nook_fail(NOOK_E_MEMORY, "reference: no memory for %ux%u pixels", pass->width, pass->height);
     nook_result result = trace_with_memory(pass, p, s->tracer, memory);

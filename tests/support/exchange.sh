@@ -13,7 +13,7 @@ make_game() {
     sed "$2" "$1" >"$tmp/$(basename "$1")"
     ! cmp -s "$1" "$tmp/$(basename "$1")" || { echo "make_game: nothing was changed by $2"; return 1; }
     "${CC:-cc}" "${flags[@]}" -shared -o "$NOOK_LIVE/game.so.new" -Wl,-Bsymbolic -Wl,--exclude-libs,ALL game/entry/game_entry.c \
-        "$tmp/$(basename "$1")" -Wl,--start-group "$bin"/libnook_{game,measure,fixture,ao,ao_*,bake}.a -Wl,--end-group
+        "$tmp/$(basename "$1")" -Wl,--start-group "$bin"/libnook_{game,measure,fixture,ao,ao_*,trace,bake}.a -Wl,--end-group
     mv "$NOOK_LIVE/game.so.new" "$NOOK_LIVE/game.so"
     publish ok
 }

@@ -1,5 +1,5 @@
+#include "modules/trace/ray_points.h"
 #include "modules/ao/sampling.h"
-#include "modules/ao_reference/ray_points_internal.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -16,29 +16,29 @@ static uint32_t place_of(const float point[2])
 
 static int compare_places(const void *a, const void *b)
 {
-    uint32_t x = ((const ray_point *)a)->place, y = ((const ray_point *)b)->place;
+    uint32_t x = ((const nook_ray_point *)a)->place, y = ((const nook_ray_point *)b)->place;
     return (x > y) - (x < y);
 }
 
-void ray_points_fill(ray_point *points, uint32_t count)
+void nook_ray_points_fill(nook_ray_point *points, uint32_t count)
 {
     for (uint32_t i = 0; i < count; i++) {
         float point[2];
         nook_sobol_point(i, 0, point);
         float angle = full_turn * point[1];
-        points[i] = (ray_point){ (uint32_t)(point[0] * steps), cosf(angle), sinf(angle), place_of(point) };
+        points[i] = (nook_ray_point){ (uint32_t)(point[0] * steps), cosf(angle), sinf(angle), place_of(point) };
     }
     qsort(points, count, sizeof *points, compare_places);
 }
 
-ray_shift ray_shift_of_pixel(uint32_t x, uint32_t y, uint32_t seed)
+nook_ray_shift nook_ray_shift_of_pixel(uint32_t x, uint32_t y, uint32_t seed)
 {
     uint32_t hash = nook_mix_bits(x + nook_mix_bits(y + nook_mix_bits(seed)));
     float angle = full_turn * (float)(nook_mix_bits(hash) >> 9) / steps;
-    return (ray_shift){ hash >> 9, cosf(angle), sinf(angle) };
+    return (nook_ray_shift){ hash >> 9, cosf(angle), sinf(angle) };
 }
 
-void ray_point_direction(const ray_point *point, const ray_shift *shift, float out[3])
+void nook_ray_point_direction(const nook_ray_point *point, const nook_ray_shift *shift, float out[3])
 {
     float square = ((float)(point->square ^ shift->square) + 0.5f) / steps; /* never 0, never 1 */
     float radius = sqrtf(square);

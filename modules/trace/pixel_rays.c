@@ -1,8 +1,8 @@
+#include "modules/trace/pixel_rays.h"
 #include "engine/core/surface.h"
 #include "engine/core/vector.h"
 #include "modules/ao/falloff.h"
-#include "modules/ao_reference/pixel_internal.h"
-#include "modules/ao_reference/pixel_rays_internal.h"
+#include "modules/trace/pixel.h"
 #include <cglm/cglm.h>
 #include <math.h>
 
@@ -26,7 +26,7 @@ static void tangent_frame(vec3 n, mat3 frame)
 static void ray_origin(const nook_ao_pass *pass, uint32_t x, uint32_t y, double depth, const double n[3], float out[3])
 {
     double p[3];
-    reference_pixel_position(pass, x, y, depth, p);
+    nook_pixel_position(pass, x, y, depth, p);
     double off = pass->depth_error[0] * depth + pass->depth_error[1] * depth * depth;
     double facing = fabs(nook_vector_dot(p, n)) / depth;
     double lift = fmax(NOOK_SURFACE_ROUNDING * (fabs(p[0]) + fabs(p[1]) + fabs(p[2])), off * facing);
@@ -38,25 +38,26 @@ static void ray_origin(const nook_ao_pass *pass, uint32_t x, uint32_t y, double 
 typedef struct pixel_rays {
     float origin[3];
     mat3 view_from_local;
-    ray_shift shift;
+    nook_ray_shift shift;
 } pixel_rays;
 
-static pixel_rays rays_of_pixel(const pixel_work *work, uint32_t x, uint32_t y, double depth, const uint16_t code[2])
+static pixel_rays rays_of_pixel(const nook_trace_work *work, uint32_t x, uint32_t y, double depth,
+                                const uint16_t code[2])
 {
-    pixel_rays rays = { .shift = ray_shift_of_pixel(x, y, work->seed) };
+    pixel_rays rays = { .shift = nook_ray_shift_of_pixel(x, y, work->seed) };
     double normal[3];
-    reference_decode_normal(code, normal);
+    nook_pixel_normal(code, normal);
     tangent_frame((vec3){ (float)normal[0], (float)normal[1], (float)normal[2] }, rays.view_from_local);
     ray_origin(work->pass, x, y, depth, normal, rays.origin);
     return rays;
 }
 
-/** Directions of a packet. @param count  at most TRACER_PACKET */
-static void aim(pixel_rays *rays, const ray_point *points, uint32_t count, float directions[3][TRACER_PACKET])
+/** Directions of a packet. @param count  at most NOOK_TRACER_PACKET */
+static void aim(pixel_rays *rays, const nook_ray_point *points, uint32_t count, float directions[3][NOOK_TRACER_PACKET])
 {
     for (uint32_t i = 0; i < count; i++) {
         vec3 local, direction;
-        ray_point_direction(&points[i], &rays->shift, local);
+        nook_ray_point_direction(&points[i], &rays->shift, local);
         glm_mat3_mulv(rays->view_from_local, local, direction);
         for (int axis = 0; axis < 3; axis++)
             directions[axis][i] = direction[axis];
@@ -68,35 +69,35 @@ static double rho(const nook_ao_pass *pass, float distance)
     return nook_falloff_evaluate((nook_falloff)pass->falloff, distance, pass->r_max, pass->falloff_tau);
 }
 
-/** Sum of rho over a packet. @param count  at most TRACER_PACKET */
-static double trace_packet(const pixel_work *work, pixel_rays *rays, const ray_point *points, uint32_t count)
+/** Sum of rho over a packet. @param count  at most NOOK_TRACER_PACKET */
+static double trace_packet(const nook_trace_work *work, pixel_rays *rays, const nook_ray_point *points, uint32_t count)
 {
     const nook_ao_pass *pass = work->pass;
-    float directions[3][TRACER_PACKET] = { { 0.0f } }, distances[TRACER_PACKET];
+    float directions[3][NOOK_TRACER_PACKET] = { { 0.0f } }, distances[NOOK_TRACER_PACKET];
     double sum = 0.0;
     aim(rays, points, count, directions);
-    tracer_distances(work->triangles, rays->origin, (const float(*)[TRACER_PACKET])directions, count,
-                     (float)pass->r_max, pass->falloff == NOOK_FALLOFF_HARD, distances);
+    nook_tracer_distances(work->triangles, rays->origin, (const float(*)[NOOK_TRACER_PACKET])directions, count,
+                          (float)pass->r_max, pass->falloff == NOOK_FALLOFF_HARD, distances);
     for (uint32_t i = 0; i < count; i++)
         sum += rho(pass, distances[i]);
     return sum;
 }
 
-static uint32_t packet_at(const pixel_work *work, uint32_t first)
+static uint32_t packet_at(const nook_trace_work *work, uint32_t first)
 {
-    return work->count - first < TRACER_PACKET ? work->count - first : TRACER_PACKET;
+    return work->count - first < NOOK_TRACER_PACKET ? work->count - first : NOOK_TRACER_PACKET;
 }
 
-static double trace_pixel(const pixel_work *work, uint32_t x, uint32_t y, double depth, const uint16_t code[2])
+static double trace_pixel(const nook_trace_work *work, uint32_t x, uint32_t y, double depth, const uint16_t code[2])
 {
     pixel_rays rays = rays_of_pixel(work, x, y, depth, code);
     double sum = 0.0;
-    for (uint32_t first = 0; first < work->count; first += TRACER_PACKET)
+    for (uint32_t first = 0; first < work->count; first += NOOK_TRACER_PACKET)
         sum += trace_packet(work, &rays, work->points + first, packet_at(work, first));
     return 1.0 - sum / work->count;
 }
 
-void reference_trace_pixels(const pixel_work *work, uint32_t begin, uint32_t end, uint32_t y, float *out_row)
+void nook_trace_pixels(const nook_trace_work *work, uint32_t begin, uint32_t end, uint32_t y, float *out_row)
 {
     for (uint32_t x = begin; x < end; x++) {
         size_t i = (size_t)y * work->pass->width + x;
@@ -105,19 +106,19 @@ void reference_trace_pixels(const pixel_work *work, uint32_t begin, uint32_t end
     }
 }
 
-double reference_trace_shares(const pixel_work *work, uint32_t x, uint32_t y, double *shares)
+double nook_trace_shares(const nook_trace_work *work, uint32_t x, uint32_t y, double *shares)
 {
     size_t at = (size_t)y * work->pass->width + x;
     double depth = work->depth[at], sum = 0.0;
     if (!(depth > 0.0))
         return 1.0;
     pixel_rays rays = rays_of_pixel(work, x, y, depth, work->normal + 2 * at);
-    for (uint32_t first = 0; first < work->count; first += TRACER_PACKET) {
-        float directions[3][TRACER_PACKET] = { { 0.0f } }, distances[TRACER_PACKET];
-        uint32_t instances[TRACER_PACKET], count = packet_at(work, first);
+    for (uint32_t first = 0; first < work->count; first += NOOK_TRACER_PACKET) {
+        float directions[3][NOOK_TRACER_PACKET] = { { 0.0f } }, distances[NOOK_TRACER_PACKET];
+        uint32_t instances[NOOK_TRACER_PACKET], count = packet_at(work, first);
         aim(&rays, work->points + first, count, directions);
-        tracer_hits(work->triangles, rays.origin, (const float(*)[TRACER_PACKET])directions, count,
-                    (float)work->pass->r_max, distances, instances);
+        nook_tracer_hits(work->triangles, rays.origin, (const float(*)[NOOK_TRACER_PACKET])directions, count,
+                         (float)work->pass->r_max, distances, instances);
         for (uint32_t i = 0; i < count; i++) {
             double part = rho(work->pass, distances[i]) / work->count;
             sum += part;

@@ -1,7 +1,7 @@
-#include "modules/ao_reference/refine.h"
+#include "modules/trace/refine.h"
 #include "engine/core/jobs.h"
 #include "engine/core/log.h"
-#include "modules/ao_reference/pixel_rays_internal.h"
+#include "modules/trace/pixel_rays.h"
 #include <math.h>
 #include <pthread.h>
 #include <stdatomic.h>
@@ -19,16 +19,16 @@ enum {
 };
 
 struct nook_refine {
-    tracer *tracer;
+    nook_tracer *tracer;
     nook_ao_snapshot frame;
     uint32_t rays_max;
-    unsigned workers;  /**< At a picture, the thread itself among them. */
-    ray_point *points; /**< Of the picture in work. */
-    ray_point *probe_points;
+    unsigned workers;       /**< At a picture, the thread itself among them. */
+    nook_ray_point *points; /**< Of the picture in work. */
+    nook_ray_point *probe_points;
     float *picture; /**< In work; width * height, as are the sums. */
     float *sums[2]; /**< Of visibility times rays, over even and odd pictures. */
     double *shares; /**< Of a probe, of each instance. */
-    pixel_work work;
+    nook_trace_work work;
     pthread_t thread;
     bool started; /**< And not joined yet. */
     atomic_bool stopping, ready, running;
@@ -53,7 +53,7 @@ static void trace_rows(void *user, size_t first, size_t last, unsigned worker)
     for (size_t y = first; y < last; y++) {
         for (uint32_t x = 0; x < width && !stops(r); x += PIXELS_AT_ONCE) {
             uint32_t end = width - x < PIXELS_AT_ONCE ? width : x + PIXELS_AT_ONCE;
-            reference_trace_pixels(&r->work, x, end, (uint32_t)y, r->picture + y * width);
+            nook_trace_pixels(&r->work, x, end, (uint32_t)y, r->picture + y * width);
         }
     }
 }
@@ -86,7 +86,7 @@ static void refine(nook_refine *r)
     uint32_t total = 0;
     for (uint32_t picture = 0; !stops(r) && total + rays_of_picture(picture) <= r->rays_max; picture++) {
         uint32_t rays = rays_of_picture(picture);
-        ray_points_fill(r->points, rays);
+        nook_ray_points_fill(r->points, rays);
         r->work.count = rays;
         r->work.seed = FIRST_SEED + picture;
         nook_parallel_for(r->frame.pass.height, r->workers, trace_rows, r);
@@ -101,7 +101,7 @@ static void *run(void *user)
 {
     nook_refine *r = user;
     setpriority(PRIO_PROCESS, 0, LOWEST_PRIORITY); /* on Linux: of this thread alone */
-    nook_result result = tracer_update(r->tracer, &r->frame.pass);
+    nook_result result = nook_tracer_update(r->tracer, &r->frame.pass);
     atomic_store(&r->result, (int)result);
     if (result == NOOK_OK) {
         atomic_store(&r->ready, true);
@@ -121,7 +121,7 @@ nook_result nook_refine_create(nook_refine **out_refine)
         return nook_fail(NOOK_E_MEMORY, "refinement: no memory");
     r->points = malloc(RAYS_LAST * sizeof *r->points);
     r->probe_points = malloc(PROBE_RAYS * sizeof *r->probe_points);
-    nook_result result = r->points && r->probe_points ? tracer_create(1, &r->tracer) /* at its own low priority */
+    nook_result result = r->points && r->probe_points ? nook_tracer_create(1, &r->tracer) /* at its own low priority */
                                                       : nook_fail(NOOK_E_MEMORY, "refinement: no memory");
     if (result != NOOK_OK) {
         free(r->points);
@@ -130,7 +130,7 @@ nook_result nook_refine_create(nook_refine **out_refine)
         return result;
     }
     pthread_mutex_init(&r->mutex, NULL);
-    ray_points_fill(r->probe_points, PROBE_RAYS);
+    nook_ray_points_fill(r->probe_points, PROBE_RAYS);
     *out_refine = r;
     return NOOK_OK;
 }
@@ -166,7 +166,7 @@ void nook_refine_destroy(nook_refine *r)
         return;
     nook_refine_stop(r);
     forget(r);
-    tracer_destroy(r->tracer);
+    nook_tracer_destroy(r->tracer);
     pthread_mutex_destroy(&r->mutex);
     free(r->points);
     free(r->probe_points);
@@ -200,11 +200,11 @@ nook_result nook_refine_start(nook_refine *r, const nook_refine_desc *desc, nook
         forget(r);
         return nook_fail(NOOK_E_MEMORY, "refinement: no memory for a picture");
     }
-    r->work = (pixel_work){ .pass = &r->frame.pass,
-                            .triangles = r->tracer,
-                            .depth = r->frame.depth,
-                            .normal = r->frame.normal,
-                            .points = r->points };
+    r->work = (nook_trace_work){ .pass = &r->frame.pass,
+                                 .triangles = r->tracer,
+                                 .depth = r->frame.depth,
+                                 .normal = r->frame.normal,
+                                 .points = r->points };
     atomic_store(&r->stopping, false);
     atomic_store(&r->running, true);
     r->started = pthread_create(&r->thread, NULL, run, r) == 0;
@@ -292,13 +292,13 @@ bool nook_refine_probe(nook_refine *r, uint32_t x, uint32_t y, nook_refine_probe
     if (!atomic_load(&r->ready) || x >= pass->width || y >= pass->height ||
         !(r->frame.depth[(size_t)y * pass->width + x] > 0.0f))
         return false;
-    pixel_work work = r->work;
+    nook_trace_work work = r->work;
     work.points = r->probe_points;
     work.count = PROBE_RAYS;
     work.seed = FIRST_SEED;
     memset(r->shares, 0, pass->instance_count * sizeof *r->shares);
     *out_result = (nook_refine_probe_result){ .rays = PROBE_RAYS };
-    out_result->visibility = reference_trace_shares(&work, x, y, r->shares);
+    out_result->visibility = nook_trace_shares(&work, x, y, r->shares);
     rank(r, out_result);
     return true;
 }

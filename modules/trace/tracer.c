@@ -1,5 +1,5 @@
+#include "modules/trace/tracer.h"
 #include "engine/core/log.h"
-#include "modules/ao_reference/tracer_internal.h"
 #include <embree3/rtcore.h>
 #include <math.h>
 #include <stdbool.h>
@@ -12,33 +12,33 @@ typedef struct traced_mesh {
     RTCScene scene;
 } traced_mesh;
 
-struct tracer {
+struct nook_tracer {
     RTCDevice device;
     traced_mesh *meshes;
     uint32_t mesh_count, mesh_capacity;
     RTCScene world; /**< NULL before the first update. */
 };
 
-nook_result tracer_create(unsigned threads, tracer **out_tracer)
+nook_result nook_tracer_create(unsigned threads, nook_tracer **out_tracer)
 {
     char config[32] = "";
     *out_tracer = NULL;
-    tracer *t = calloc(1, sizeof *t);
+    nook_tracer *t = calloc(1, sizeof *t);
     if (!t)
-        return nook_fail(NOOK_E_MEMORY, "reference: no memory");
+        return nook_fail(NOOK_E_MEMORY, "ray tracer: no memory");
     if (threads)
         snprintf(config, sizeof config, "threads=%u", threads);
     t->device = rtcNewDevice(config);
     if (!t->device) {
         int code = (int)rtcGetDeviceError(NULL);
         free(t);
-        return nook_fail(NOOK_E_DEVICE, "reference: Embree does not start (error %d); it needs SSE2 and memory", code);
+        return nook_fail(NOOK_E_DEVICE, "ray tracer: Embree does not start (error %d); it needs SSE2 and memory", code);
     }
     *out_tracer = t;
     return NOOK_OK;
 }
 
-void tracer_destroy(tracer *t)
+void nook_tracer_destroy(nook_tracer *t)
 {
     if (!t)
         return;
@@ -51,16 +51,16 @@ void tracer_destroy(tracer *t)
     free(t);
 }
 
-static nook_result check_device(const tracer *t)
+static nook_result check_device(const nook_tracer *t)
 {
     enum RTCError error = rtcGetDeviceError(t->device);
     if (error == RTC_ERROR_NONE)
         return NOOK_OK;
-    return nook_fail(error == RTC_ERROR_OUT_OF_MEMORY ? NOOK_E_MEMORY : NOOK_E_DEVICE, "reference: Embree error %d",
+    return nook_fail(error == RTC_ERROR_OUT_OF_MEMORY ? NOOK_E_MEMORY : NOOK_E_DEVICE, "ray tracer: Embree error %d",
                      (int)error);
 }
 
-static RTCScene find_mesh(const tracer *t, uint32_t id)
+static RTCScene find_mesh(const nook_tracer *t, uint32_t id)
 {
     for (uint32_t i = 0; i < t->mesh_count; i++) {
         if (t->meshes[i].id == id)
@@ -70,14 +70,14 @@ static RTCScene find_mesh(const tracer *t, uint32_t id)
 }
 
 /** Robust: no ray slips between two triangles of one edge. */
-static RTCScene new_scene(const tracer *t)
+static RTCScene new_scene(const nook_tracer *t)
 {
     RTCScene scene = rtcNewScene(t->device);
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
     return scene;
 }
 
-static void put_world(tracer *t, RTCScene world)
+static void put_world(nook_tracer *t, RTCScene world)
 {
     if (t->world)
         rtcReleaseScene(t->world);
@@ -85,8 +85,8 @@ static void put_world(tracer *t, RTCScene world)
 }
 
 /** Embree reads 16 bytes at each vertex, so positions get one float of padding: they are copied into its own buffer. */
-static RTCScene build_triangles(const tracer *t, const float *positions, uint32_t vertex_count, const uint32_t *indices,
-                                uint32_t index_count)
+static RTCScene build_triangles(const nook_tracer *t, const float *positions, uint32_t vertex_count,
+                                const uint32_t *indices, uint32_t index_count)
 {
     RTCGeometry geometry = rtcNewGeometry(t->device, RTC_GEOMETRY_TYPE_TRIANGLE);
     float *vertex_buffer = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
@@ -107,7 +107,7 @@ static RTCScene build_triangles(const tracer *t, const float *positions, uint32_
     return scene;
 }
 
-static nook_result add_mesh(tracer *t, const nook_ao_mesh_view *mesh)
+static nook_result add_mesh(nook_tracer *t, const nook_ao_mesh_view *mesh)
 {
     if (find_mesh(t, mesh->id))
         return NOOK_OK;
@@ -115,18 +115,18 @@ static nook_result add_mesh(tracer *t, const nook_ao_mesh_view *mesh)
         uint32_t capacity = t->mesh_capacity ? t->mesh_capacity * 2 : 16;
         traced_mesh *grown = realloc(t->meshes, capacity * sizeof *grown);
         if (!grown)
-            return nook_fail(NOOK_E_MEMORY, "reference: no memory");
+            return nook_fail(NOOK_E_MEMORY, "ray tracer: no memory");
         t->meshes = grown;
         t->mesh_capacity = capacity;
     }
     RTCScene scene = build_triangles(t, mesh->positions, mesh->vertex_count, mesh->indices, mesh->index_count);
     if (!scene)
-        return nook_fail(NOOK_E_MEMORY, "reference: no memory for %u triangles", mesh->index_count / 3);
+        return nook_fail(NOOK_E_MEMORY, "ray tracer: no memory for %u triangles", mesh->index_count / 3);
     t->meshes[t->mesh_count++] = (traced_mesh){ mesh->id, scene };
     return check_device(t);
 }
 
-static void drop_removed(tracer *t, const nook_ao_pass *pass)
+static void drop_removed(nook_tracer *t, const nook_ao_pass *pass)
 {
     for (uint32_t i = 0; i < t->mesh_count;) {
         uint32_t k = 0;
@@ -141,7 +141,7 @@ static void drop_removed(tracer *t, const nook_ao_pass *pass)
     }
 }
 
-static void add_instance(tracer *t, uint32_t number, RTCScene mesh, const nook_matrix *view_from_mesh)
+static void add_instance(nook_tracer *t, uint32_t number, RTCScene mesh, const nook_matrix *view_from_mesh)
 {
     float transform[16];
     RTCGeometry geometry = rtcNewGeometry(t->device, RTC_GEOMETRY_TYPE_INSTANCE);
@@ -154,7 +154,7 @@ static void add_instance(tracer *t, uint32_t number, RTCScene mesh, const nook_m
     rtcReleaseGeometry(geometry);
 }
 
-nook_result tracer_update(tracer *t, const nook_ao_pass *pass)
+nook_result nook_tracer_update(nook_tracer *t, const nook_ao_pass *pass)
 {
     drop_removed(t, pass);
     for (uint32_t i = 0; i < pass->mesh_count; i++) {
@@ -172,21 +172,21 @@ nook_result tracer_update(tracer *t, const nook_ao_pass *pass)
     return check_device(t);
 }
 
-nook_result tracer_update_triangles(tracer *t, const float *positions, uint32_t vertex_count, const uint32_t *indices,
-                                    uint32_t index_count)
+nook_result nook_tracer_update_triangles(nook_tracer *t, const float *positions, uint32_t vertex_count,
+                                         const uint32_t *indices, uint32_t index_count)
 {
     RTCScene world = index_count ? build_triangles(t, positions, vertex_count, indices, index_count) : new_scene(t);
     if (!world)
-        return nook_fail(NOOK_E_MEMORY, "reference: no memory for %u triangles", index_count / 3);
+        return nook_fail(NOOK_E_MEMORY, "ray tracer: no memory for %u triangles", index_count / 3);
     rtcCommitScene(world);
     put_world(t, world);
     return check_device(t);
 }
 
-static void fill_packet(const float origin[3], const float directions[3][TRACER_PACKET], float limit,
+static void fill_packet(const float origin[3], const float directions[3][NOOK_TRACER_PACKET], float limit,
                         struct RTCRayHit8 *packet)
 {
-    for (int i = 0; i < TRACER_PACKET; i++) {
+    for (int i = 0; i < NOOK_TRACER_PACKET; i++) {
         packet->ray.org_x[i] = origin[0], packet->ray.org_y[i] = origin[1], packet->ray.org_z[i] = origin[2];
         packet->ray.dir_x[i] = directions[0][i];
         packet->ray.dir_y[i] = directions[1][i];
@@ -198,15 +198,15 @@ static void fill_packet(const float origin[3], const float directions[3][TRACER_
     }
 }
 
-void tracer_distances(const tracer *t, const float origin[3], const float directions[3][TRACER_PACKET], uint32_t count,
-                      float limit, int any, float *out)
+void nook_tracer_distances(const nook_tracer *t, const float origin[3], const float directions[3][NOOK_TRACER_PACKET],
+                           uint32_t count, float limit, int any, float *out)
 {
     struct RTCIntersectContext context;
     struct RTCRayHit8 packet = { 0 };
-    _Alignas(32) int valid[TRACER_PACKET];
+    _Alignas(32) int valid[NOOK_TRACER_PACKET];
     rtcInitIntersectContext(&context);
     fill_packet(origin, directions, limit, &packet);
-    for (uint32_t i = 0; i < TRACER_PACKET; i++)
+    for (uint32_t i = 0; i < NOOK_TRACER_PACKET; i++)
         valid[i] = i < count ? -1 : 0;
     if (any)
         rtcOccluded8(valid, t->world, &context, &packet.ray);
@@ -220,15 +220,15 @@ void tracer_distances(const tracer *t, const float origin[3], const float direct
     }
 }
 
-void tracer_hits(const tracer *t, const float origin[3], const float directions[3][TRACER_PACKET], uint32_t count,
-                 float limit, float *out_distances, uint32_t *out_instances)
+void nook_tracer_hits(const nook_tracer *t, const float origin[3], const float directions[3][NOOK_TRACER_PACKET],
+                      uint32_t count, float limit, float *out_distances, uint32_t *out_instances)
 {
     struct RTCIntersectContext context;
     struct RTCRayHit8 packet = { 0 };
-    _Alignas(32) int valid[TRACER_PACKET];
+    _Alignas(32) int valid[NOOK_TRACER_PACKET];
     rtcInitIntersectContext(&context);
     fill_packet(origin, directions, limit, &packet);
-    for (uint32_t i = 0; i < TRACER_PACKET; i++)
+    for (uint32_t i = 0; i < NOOK_TRACER_PACKET; i++)
         valid[i] = i < count ? -1 : 0;
     rtcIntersect8(valid, t->world, &context, &packet);
     for (uint32_t i = 0; i < count; i++) {

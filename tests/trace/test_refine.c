@@ -1,6 +1,6 @@
 /* The reference in the background: what it comes to, what it tells of itself, and that it stops. */
 #include "engine/core/clock.h"
-#include "modules/ao_reference/refine.h"
+#include "modules/trace/refine.h"
 #include "tests/support/ao_screen.h"
 #include <math.h>
 #include <stdlib.h>
