@@ -65,7 +65,7 @@ end
 local libraries = {} -- names in link order: what uses stands before what is used
 
 -- pattern: "/**.c" is the folder with all below it, "/*.c" without. A folder without sources (headers only, or not written yet) makes no library and is not linked.
-local engine, exchanged = {}, {} -- archives of engine/, and those of game/ and modules/, in link order
+local engine, shared = {}, {} -- archives of engine/, and those of game/ and modules/ but for the techniques', in link order
 
 local function library(name, make_project, folder, pattern)
   local sources = os.matchfiles(folder .. pattern)
@@ -74,7 +74,7 @@ local function library(name, make_project, folder, pattern)
   make_project(name, "StaticLib")
   files { folder .. pattern }
   table.insert(libraries, 1, name)
-  table.insert(folder:match("^engine/") and engine or exchanged, 1, name)
+  if not folder:match("^modules/ao_") then table.insert(folder:match("^engine/") and engine or shared, 1, name) end
 end
 
 -- Parts, lowest first; a part uses only what stands above it here (docs/architecture.md).
@@ -131,7 +131,8 @@ local function exchangeable(name, entry, archives)
   links(archives)
 end
 
-exchangeable("game", "game/entry/game_entry.c", exchanged)
+-- The game has none of the techniques' code: each comes from its own library, and a change of one changes no other.
+exchangeable("game", "game/entry/game_entry.c", shared)
 for _, folder in ipairs(techniques) do
   local name = path.getname(folder)
   exchangeable(name, "modules/ao/entry/technique_entry.c", { "nook_" .. name, "nook_trace", "nook_ao" })

@@ -1,35 +1,34 @@
 #include "game/techniques.h"
 #include "engine/core/log.h"
 #include "game/suggestion.h"
+#include "game/technique_list.h"
 #include "modules/ao/nook_ao.h"
-#include "modules/ao_gtao/gtao.h"
-#include "modules/ao_hbao/hbao.h"
-#include "modules/ao_hsao/hsao.h"
-#include "modules/ao_reference/reference.h"
-#include "modules/ao_ssao/ssao.h"
-#include "modules/ao_volume/volume.h"
+#include <assert.h>
 #include <stdio.h>
 #include <string.h>
 
-/* Those that are linked in, until nook_techniques_replace: the one thing that is not constant here, as the code that is
-   loaded is one for the whole program. */
-static const nook_ao_technique *techniques[] = {
-    &nook_ao_volume_technique, &nook_ao_ssao_technique, &nook_ao_hsao_technique,
-    &nook_ao_hbao_technique,   &nook_ao_gtao_technique, &nook_ao_reference_technique,
-};
-
 const nook_ao_technique *const *nook_techniques(size_t *out_count)
 {
-    *out_count = NOOK_COUNT(techniques);
-    return techniques;
+    *out_count = nook_listed_techniques.count;
+    return nook_listed_techniques.items;
 }
 
-void nook_techniques_replace(const nook_ao_technique *technique)
+/* @return its place, or the count */
+static size_t find(const char *name)
 {
-    for (size_t i = 0; i < NOOK_COUNT(techniques); i++) {
-        if (strcmp(techniques[i]->name, technique->name) == 0)
-            techniques[i] = technique;
-    }
+    size_t i = 0;
+    while (i < nook_listed_techniques.count && strcmp(nook_listed_techniques.items[i]->name, name) != 0)
+        i++;
+    return i;
+}
+
+void nook_techniques_list(const nook_ao_technique *technique)
+{
+    nook_technique_list *list = &nook_listed_techniques;
+    size_t at = find(technique->name);
+    assert(at < NOOK_TECHNIQUES_MAX);
+    list->items[at] = technique;
+    list->count += at == list->count;
 }
 
 const nook_param *nook_shared_param(const char *name)
@@ -41,11 +40,8 @@ const nook_param *nook_shared_param(const char *name)
 
 const nook_ao_technique *nook_technique_find(const char *name)
 {
-    for (size_t i = 0; i < NOOK_COUNT(techniques); i++) {
-        if (strcmp(techniques[i]->name, name) == 0)
-            return techniques[i];
-    }
-    return NULL;
+    size_t at = find(name);
+    return at < nook_listed_techniques.count ? nook_listed_techniques.items[at] : NULL;
 }
 
 nook_result nook_technique_refuse(const char *where, const char *name)
@@ -53,10 +49,11 @@ nook_result nook_technique_refuse(const char *where, const char *name)
     char names[512] = "";
     size_t used = 0;
     nook_suggestion suggestion = nook_suggestion_for(name);
-    for (size_t i = 0; i < NOOK_COUNT(techniques); i++) {
-        nook_suggestion_offer(&suggestion, techniques[i]->name);
+    for (size_t i = 0; i < nook_listed_techniques.count; i++) {
+        const char *listed = nook_listed_techniques.items[i]->name;
+        nook_suggestion_offer(&suggestion, listed);
         if (used < sizeof names)
-            used += (size_t)snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "", techniques[i]->name);
+            used += (size_t)snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "", listed);
     }
     if (suggestion.nearest)
         return nook_fail(NOOK_E_NOT_FOUND, "%s: technique '%s': did you mean %s? Choose from %s", where, name,

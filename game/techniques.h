@@ -1,11 +1,11 @@
 #pragma once
 #include "modules/ao/technique.h"
 
-/** Every technique of the program, in the order of menus; the exact one, the reference, last. @param out_count  rows */
+/** Every technique, in the order of menus; the exact one, the reference, last. @param out_count  rows */
 const nook_ao_technique *const *nook_techniques(size_t *out_count);
 
-/** Lists a technique of that name, whose code was loaded anew, instead of the one that is listed. Nothing happens to unknown ones. */
-void nook_techniques_replace(const nook_ao_technique *technique);
+/** Lists a technique whose code was loaded: in the place of the one of its name, or at the end when there is none. */
+void nook_techniques_list(const nook_ao_technique *technique);
 
 /** Of those that all techniques share, by its name in modules/ao/params.def, which it must have. */
 const nook_param *nook_shared_param(const char *name);

@@ -17,7 +17,7 @@ static void list_techniques(const nook_module_news *news)
     for (uint32_t i = 0; i < news->part_count; i++) {
         const nook_ao_technique *technique = technique_of(&news->parts[i]);
         if (technique)
-            nook_techniques_replace(technique);
+            nook_techniques_list(technique);
     }
 }
 

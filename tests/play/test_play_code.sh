@@ -5,16 +5,22 @@ source tests/support/shell.sh
 source tests/support/window.sh
 source tests/support/exchange.sh
 level=tests/play/data/crate.level
-# in_game SCRIPT: beside `nook play $level`; an interrupt ends it.
+
+# in_game SCRIPT [OPTION...]: beside `nook play $level`; an interrupt ends it.
 in_game() {
+    local beside=$1
+    shift
     rm -rf "$NOOK_LIVE"
     mkdir -p "$NOOK_LIVE"
     in_window_of "Nook - One crate" "source tests/support/exchange.sh
         xdotool windowfocus --sync \$window; sleep 0.5
-        $1
+        $beside
         kill -INT \$program_id" \
-        play "$level" --size 320x200 --cache "$tmp/cache" --record "$tmp/played.replay"
+        play "$level" --size 320x200 --cache "$tmp/cache" --record "$tmp/played.replay" "$@"
 }
+
+# The state of the game is as if nothing had happened: its recording ends in the same one without any exchange.
+is_replayed() { [ "$("$program" play --headless --replay "$tmp/played.replay" | tail -n 1)" = "$(tail -n 1 "$tmp/table")" ]; }
 
 test_saved_code_is_seen_and_the_game_goes_on_where_it_was() {
     rm -f "$tmp/played.replay"
@@ -31,8 +37,26 @@ test_saved_code_is_seen_and_the_game_goes_on_where_it_was() {
         wait_for 30 log_has "new code runs: game, ao_volume (state kept"
         [ "$(find "$NOOK_LIVE" -name "*.*.*.so" | wc -l)" = 2 ]'
     [ -z "$(find "$NOOK_LIVE" -name '*.*.*.so')" ]
-    # The state was the same as if nothing had happened: the recording ends in the same one without any exchange.
-    [ "$("$program" play --headless --replay "$tmp/played.replay" | tail -n 1)" = "$(tail -n 1 "$tmp/table")" ]
+    is_replayed
+}
+
+test_a_technique_with_a_new_parameter_is_exchanged_alone_and_the_game_goes_on() {
+    copy_root
+    echo 'technique = gtao' >"$tmp/gtao.settings"
+    rm -f "$tmp/played.replay"
+    in_game '
+        press e; wait_for 30 title_has "carrying crate"
+        echo "NOOK_INT(extra, 3, 1, 9, NOOK_UNIT_COUNT, of a test)" >>"$root/modules/ao_gtao/params.def"
+        wait_for 30 log_has "modules/ao_gtao/params.def.*build the code anew"
+        wait_for 30 has_red
+        make_technique gtao
+        wait_for 60 log_has "new code runs: ao_gtao (state kept"
+        printf "technique = gtao\nextra = 7\n" >"$tmp/gtao.settings"
+        wait_for 30 log_has "settings taken over: gtao extra=7"
+        wait_for 30 has_no_red
+        title_has "carrying crate"
+        not log_has "new code runs: game"' --settings "$tmp/gtao.settings"
+    is_replayed
 }
 
 test_code_that_crashes_is_put_back_said_on_the_screen_and_mended() {
