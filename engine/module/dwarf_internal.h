@@ -41,7 +41,12 @@ typedef struct nook_dwarf_entry {
     uint64_t str_offsets_base; /**< Of a root; 0: not told. */
 } nook_dwarf_entry;
 
-typedef struct nook_dwarf_abbreviation nook_dwarf_abbreviation;
+/** What entries that look alike have in common. */
+typedef struct nook_dwarf_abbreviation {
+    uint32_t tag;
+    bool has_children;
+    size_t attributes; /**< Offset of their list into .debug_abbrev; 0: no such code. */
+} nook_dwarf_abbreviation;
 
 typedef struct nook_dwarf_unit {
     const nook_debug_sections *sections;
