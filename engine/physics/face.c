@@ -1,3 +1,4 @@
+#include "engine/core/angle.h"
 #include "engine/core/vector.h"
 #include "engine/physics/internal.h"
 #include <string.h>
@@ -49,7 +50,7 @@ static int cylinder_face(dGeomID cylinder, const double normal[3], double outlin
         nook_physics_axis(cylinder, 1, side);
         nook_vector_add_scaled(dGeomGetPosition(cylinder), along > 0.0 ? -0.5 * length : 0.5 * length, axis, middle);
         for (int i = 0; i < PHYSICS_OUTLINE_MAX; i++) {
-            double angle = 2.0 * M_PI * i / PHYSICS_OUTLINE_MAX;
+            double angle = 2.0 * NOOK_PI * i / PHYSICS_OUTLINE_MAX;
             point_at(middle, across, radius * cos(angle), side, radius * sin(angle), outline[i]);
         }
         return PHYSICS_OUTLINE_MAX;

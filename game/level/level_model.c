@@ -1,5 +1,6 @@
 /* A level made of a glTF file: where to stand in it, whether it needs a floor, and what of it can be moved. */
 #include "engine/animation/scene_stand.h"
+#include "engine/core/angle.h"
 #include "engine/core/file.h"
 #include "engine/core/log.h"
 #include "engine/core/vector.h"
@@ -10,7 +11,6 @@
 #include <stdlib.h>
 
 enum { TRIALS = 256, SIDES = 12 };
-static const double pi = 3.14159265358979323846;
 static const double down[3] = { 0, -1, 0 }, up[3] = { 0, 1, 0 };
 
 /* Room that someone needs to stand, metres; above, and around at the height of the hips. */
@@ -50,7 +50,7 @@ static bool has_room(const probed *model, const double feet[3])
     if (nook_rays_cast(model->rays, eye, up).distance < head_room - hips)
         return false;
     for (int i = 0; i < SIDES; i++) {
-        const double direction[3] = { cos(2.0 * pi * i / SIDES), 0.0, sin(2.0 * pi * i / SIDES) };
+        const double direction[3] = { cos(2.0 * NOOK_PI * i / SIDES), 0.0, sin(2.0 * NOOK_PI * i / SIDES) };
         if (nook_rays_cast(model->rays, eye, direction).distance < side_room)
             return false;
     }
@@ -74,7 +74,7 @@ static bool stand_below(const probed *model, const nook_camera *camera, nook_lev
         return false;
     for (int i = 0; i < 3; i++)
         level->start[i] = feet[i];
-    level->yaw = atan2(-forward[0], -forward[2]) * 180.0 / pi;
+    level->yaw = atan2(-forward[0], -forward[2]) / NOOK_DEGREE;
     return true;
 }
 

@@ -1,4 +1,5 @@
 #include "game/level/shape_fit.h"
+#include "engine/core/angle.h"
 #include "engine/core/vector.h"
 #include <math.h>
 #include <string.h>
@@ -8,7 +9,6 @@ enum { DIRECTIONS = 32 }; /* in which an outline is measured; half of them, as i
 static const double round_tolerance =
     0.06;                            /* of a radius: how far a mesh may be from a circle or a sphere to count as one */
 static const double thinnest = 1e-3; /* metres, half: what physics can still stack */
-static const double pi = 3.14159265358979323846;
 
 /* A mesh with a node's scale. */
 typedef struct scaled_mesh {
@@ -66,8 +66,8 @@ static bool round_about(const scaled_mesh *m, int axis, double *out_radius)
 {
     double directions[DIRECTIONS][3] = { { 0 } }, reach[DIRECTIONS];
     for (int i = 0; i < DIRECTIONS; i++) {
-        directions[i][(axis + 1) % 3] = cos(2.0 * pi * i / DIRECTIONS);
-        directions[i][(axis + 2) % 3] = sin(2.0 * pi * i / DIRECTIONS);
+        directions[i][(axis + 1) % 3] = cos(2.0 * NOOK_PI * i / DIRECTIONS);
+        directions[i][(axis + 2) % 3] = sin(2.0 * NOOK_PI * i / DIRECTIONS);
     }
     measure_reach(m, directions, reach);
     return is_round(reach, out_radius);
@@ -77,7 +77,7 @@ static bool round_about(const scaled_mesh *m, int axis, double *out_radius)
 static bool round_all_over(const scaled_mesh *m, double *out_radius)
 {
     double directions[DIRECTIONS][3], reach[DIRECTIONS];
-    const double golden = pi * (3.0 - sqrt(5.0));
+    const double golden = NOOK_PI * (3.0 - sqrt(5.0));
     for (int i = 0; i < DIRECTIONS; i++) {
         double height = 1.0 - 2.0 * (i + 0.5) / DIRECTIONS, width = sqrt(1.0 - height * height);
         directions[i][0] = width * cos(golden * i);

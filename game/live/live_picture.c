@@ -1,4 +1,5 @@
 /* Pictures of what is seen: one by a key, with a text of what made it; or one of every frame. */
+#include "engine/core/angle.h"
 #include "engine/core/file.h"
 #include "engine/core/log.h"
 #include "game/live/live_internal.h"
@@ -100,7 +101,7 @@ static void add_camera(comment *c, const nook_camera *camera)
     nook_matrix_apply_point(&world_from_view, origin, eye);
     nook_matrix_apply_point(&world_from_view, ahead, target);
     add(c, "--camera %.6f,%.6f,%.6f,%.6f,%.6f,%.6f,%.4f\n", eye[0], eye[1], eye[2], target[0], target[1], target[2],
-        camera->fov_y_radians * 180.0 / 3.14159265358979323846);
+        camera->fov_y_radians / NOOK_DEGREE);
 }
 
 static void add_view(comment *c, const nook_live *live, uint32_t i)

@@ -162,7 +162,7 @@ static void hold_point(const nook_session *s, double out[3])
 
 static void turn_in_hands(nook_session *s, const nook_play_input *input)
 {
-    const double unit = 2.0 * session_pi / 65536.0, right[3] = { 1, 0, 0 };
+    const double unit = 2.0 * NOOK_PI / 65536.0, right[3] = { 1, 0, 0 };
     double turn[4];
     nook_rotation_about(upward, input->yaw * unit, turn);
     nook_rotation_multiply(turn, s->carry.turn, s->carry.turn);

@@ -75,7 +75,7 @@ static void shade_ray(uint32_t i, double out[3])
     double inverse = 0.0;
     for (double digit = 0.5; bits; bits >>= 1, digit *= 0.5)
         inverse += digit * (bits & 1);
-    double u = (i + 0.5) / NOOK_SHADE_RAYS, angle = 2.0 * session_pi * (inverse + 0.5 / NOOK_SHADE_RAYS);
+    double u = (i + 0.5) / NOOK_SHADE_RAYS, angle = 2.0 * NOOK_PI * (inverse + 0.5 / NOOK_SHADE_RAYS);
     double radius = sqrt(u);
     out[0] = radius * cos(angle);
     out[1] = sqrt(1.0 - u);

@@ -46,8 +46,8 @@ static void spin(nook_session *s, uint32_t index)
     const session_thing *thing = &s->things[rule->thing];
     double target = session_needs_met(s, index) ? 1.0 : 0.0, turned[4];
     rule->progress = towards(rule->progress, target, NOOK_PHYSICS_STEP / spin_up_seconds);
-    rule->angle += rule->progress * entity->rpm / 60.0 * 2.0 * session_pi * NOOK_PHYSICS_STEP;
-    rule->angle -= 2.0 * session_pi * floor(rule->angle / (2.0 * session_pi));
+    rule->angle += rule->progress * entity->rpm / 60.0 * 2.0 * NOOK_PI * NOOK_PHYSICS_STEP;
+    rule->angle -= 2.0 * NOOK_PI * floor(rule->angle / (2.0 * NOOK_PI));
     nook_rotation_about(entity->axis, rule->angle, turned);
     nook_pose turn = { .rotation = { turned[0], turned[1], turned[2], turned[3] } };
     nook_pose pose = nook_pose_multiply(&thing->start, &turn);

@@ -1,12 +1,12 @@
 #include "game/play/pilot.h"
+#include "engine/core/angle.h"
 #include "engine/core/log.h"
 #include "engine/core/vector.h"
 #include "game/play/pilot_internal.h"
 #include <math.h>
 #include <string.h>
 
-static const double pi = 3.14159265358979323846;
-static const double units = 65536.0 / (2.0 * 3.14159265358979323846); /* of inputs, a radian */
+static const double units = 65536.0 / (2.0 * NOOK_PI); /* of inputs, a radian */
 
 static const double turn_most = 0.05;     /* radians a tick: as a hand moves a mouse */
 static const double turn_part = 0.2;      /* of what is left to turn in a tick, so that turns end gently */
@@ -31,7 +31,7 @@ typedef struct moment {
 
 static double wrapped(double angle)
 {
-    return angle - 2.0 * pi * floor((angle + pi) / (2.0 * pi));
+    return angle - 2.0 * NOOK_PI * floor((angle + NOOK_PI) / (2.0 * NOOK_PI));
 }
 
 static int16_t turn_units(double radians)
@@ -121,7 +121,7 @@ static bool step_look(moment *m)
 
 static bool step_turn(moment *m)
 {
-    return turn_to(m, m->step->numbers[0] * pi / 180.0, m->step->numbers[1] * pi / 180.0, aim_close);
+    return turn_to(m, m->step->numbers[0] * NOOK_DEGREE, m->step->numbers[1] * NOOK_DEGREE, aim_close);
 }
 
 static bool step_take(moment *m)
@@ -175,8 +175,8 @@ static bool step_place(moment *m)
 static bool step_spin(moment *m)
 {
     double left = m->step->numbers[0] - m->pilot->spun;
-    int16_t turn = turn_units(fmax(-0.05, fmin(0.05, left * pi / 180.0)));
-    m->pilot->spun += turn / units * 180.0 / pi;
+    int16_t turn = turn_units(fmax(-0.05, fmin(0.05, left * NOOK_DEGREE)));
+    m->pilot->spun += turn / units / NOOK_DEGREE;
     m->out->yaw = turn;
     m->out->buttons |= NOOK_PLAY_TURN;
     return fabs(left) < 0.05;
@@ -240,7 +240,7 @@ static void say_failure(const moment *m)
         __FILE__, __LINE__, NOOK_LOG_ERROR,
         "%s:%u: %s: not done within %g s; at %.2f %.2f %.2f, looking %.0f %.0f degrees at \"%s\", carrying \"%s\"",
         m->pilot->file, m->step->line, m->step->text, m->step->seconds, v->feet[0], v->feet[1], v->feet[2],
-        v->yaw * 180.0 / pi, v->pitch * 180.0 / pi, v->looked_at, v->carried);
+        v->yaw / NOOK_DEGREE, v->pitch / NOOK_DEGREE, v->looked_at, v->carried);
 }
 
 static void next_step(nook_pilot *pilot)

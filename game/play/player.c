@@ -47,7 +47,7 @@ static nook_result make_body(nook_session *s, const double feet[3], bool crouche
 /* Straight up and straight down no camera knows which way is left. */
 static double within_neck(const nook_session *s, double pitch)
 {
-    const double most = (double)s->params.pitch * session_pi / 180.0;
+    const double most = (double)s->params.pitch * NOOK_DEGREE;
     return fmax(-most, fmin(most, pitch));
 }
 
@@ -58,8 +58,8 @@ nook_result session_player_enter(nook_session *s)
     if (session_is_outside(s->desc.scene, level->start))
         return nook_fail(NOOK_E_FORMAT, "%s: start = %g %g %g: there is nothing near it to stand on", level->path,
                          level->start[0], level->start[1], level->start[2]);
-    *player = (session_player){ .yaw = level->yaw * session_pi / 180.0,
-                                .pitch = within_neck(s, level->pitch * session_pi / 180.0),
+    *player = (session_player){ .yaw = level->yaw * NOOK_DEGREE,
+                                .pitch = within_neck(s, level->pitch * NOOK_DEGREE),
                                 .eye_height = (double)s->params.eyes,
                                 .grounded = true };
     memcpy(player->feet, level->start, sizeof player->feet);
@@ -74,7 +74,7 @@ nook_result session_player_enter(nook_session *s)
 
 static void look(nook_session *s, const nook_play_input *input)
 {
-    const double unit = 2.0 * session_pi / 65536.0;
+    const double unit = 2.0 * NOOK_PI / 65536.0;
     session_player *player = &s->player;
     player->was_yaw = player->yaw;
     player->was_pitch = player->pitch;
@@ -82,9 +82,9 @@ static void look(nook_session *s, const nook_play_input *input)
         return; /* carry.c takes it */
     player->yaw += input->yaw * unit;
     player->pitch = within_neck(s, player->pitch + input->pitch * unit);
-    double turns = floor((player->yaw + session_pi) / (2.0 * session_pi));
-    player->yaw -= turns * 2.0 * session_pi;
-    player->was_yaw -= turns * 2.0 * session_pi;
+    double turns = floor((player->yaw + NOOK_PI) / (2.0 * NOOK_PI));
+    player->yaw -= turns * 2.0 * NOOK_PI;
+    player->was_yaw -= turns * 2.0 * NOOK_PI;
 }
 
 /* ---- Crouching --------------------------------------------------------------------------------------------------- */
@@ -160,7 +160,7 @@ static void feel(nook_session *s, double x, double z, double start, bool *found)
     if (!nook_physics_ray(s->physics, origin, down, length, ignored, &hit))
         return;
     double height = start - hit.distance;
-    if (hit.normal[1] < cos((double)s->params.slope * session_pi / 180.0))
+    if (hit.normal[1] < cos((double)s->params.slope * NOOK_DEGREE))
         return;
     if (*found && height <= player->ground_height)
         return;
@@ -197,7 +197,7 @@ static void find_ground(nook_session *s, const double velocity[3])
     bool found = false;
     feel(s, feet[0], feet[2], start, &found);
     for (int i = 0; i < FEELERS; i++) {
-        double angle = 2.0 * session_pi * i / FEELERS;
+        double angle = 2.0 * NOOK_PI * i / FEELERS;
         feel(s, feet[0] + reach * cos(angle), feet[2] + reach * sin(angle), start, &found);
     }
     /* One that falls reaches the ground when the soles do; one that walks keeps to it down a step. */

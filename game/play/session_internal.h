@@ -1,5 +1,6 @@
 /** session_internal.h - inside game/play only: what a session is made of. Everything here is plain; see session.h, Reload. */
 #pragma once
+#include "engine/core/angle.h"
 #include "engine/core/log.h"
 #include "engine/physics/pose.h"
 #include "game/play/player_params.h"
@@ -72,7 +73,6 @@ struct nook_session {
     uint64_t message_until; /**< Tick; UINT64_MAX: for good. */
 };
 
-static const double session_pi = 3.14159265358979323846;
 static const double session_gravity = 9.81; /**< Metres per second squared. */
 
 /* ---- session.c ---- */
