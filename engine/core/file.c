@@ -149,6 +149,17 @@ nook_result nook_file_write(const char *path, const void *bytes, size_t size)
     return reason == 0 ? NOOK_OK : nook_fail(NOOK_E_IO, "%s: cannot write: %s", path, strerror(reason));
 }
 
+nook_result nook_file_copy(const char *from, const char *to)
+{
+    nook_file file;
+    nook_result result = nook_file_read(from, &file);
+    if (result != NOOK_OK)
+        return result;
+    result = nook_file_write(to, file.bytes, file.size);
+    nook_file_free(&file);
+    return result;
+}
+
 nook_result nook_file_probe(const char *path)
 {
     char probe[PATH_CAPACITY];

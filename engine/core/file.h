@@ -33,6 +33,9 @@ nook_result nook_file_write(const char *path, const void *bytes, size_t size);
 /** The same without a line in the log, for what may fail. @return 0, or the errno that says why not */
 int nook_file_try_write(const char *path, const void *bytes, size_t size);
 
+/** Copies a file, as nook_file_read and nook_file_write do. @return as these */
+nook_result nook_file_copy(const char *from, const char *to);
+
 /**
  * Whether a file of that name can be written, for who would else find out after hours of work: writes one beside it and removes it.
  * @return NOOK_E_IO no, and why

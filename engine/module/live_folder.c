@@ -102,15 +102,9 @@ char *nook_live_folder_library(const nook_live_folder *folder, const char *name,
 nook_result nook_live_folder_copy(nook_live_folder *folder, const char *name, char *out_path)
 {
     char source[NOOK_LIVE_PATH_MAX], copy[512];
-    nook_file file;
-    nook_result result = nook_file_read(nook_live_folder_library(folder, name, source), &file);
-    if (result != NOOK_OK)
-        return result;
     do { /* a path that is loaded already would give the code that is loaded */
         snprintf(copy, sizeof copy, "%s.%ld.%u.so", name, (long)getpid(), ++folder->copies);
         nook_path_join(out_path, NOOK_LIVE_PATH_MAX, folder->path, copy);
     } while (nook_file_exists(out_path));
-    result = nook_file_write(out_path, file.bytes, file.size);
-    nook_file_free(&file);
-    return result;
+    return nook_file_copy(nook_live_folder_library(folder, name, source), out_path);
 }

@@ -1,14 +1,8 @@
 #include "game/cameras/glance.h"
+#include "engine/core/order.h"
 #include <math.h>
-#include <stdlib.h>
 
 enum { SIDE = 32 }; /* rays across and up */
-
-static int compare_doubles(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
 
 /* A ray through the middle of a cell of the picture; its distances are along the view. */
 static nook_view_hit cast_cell(const nook_rays *rays, const nook_camera *camera, const nook_matrix *world_from_view,
@@ -40,7 +34,7 @@ nook_glance nook_glance_at(const nook_rays *rays, const nook_camera *camera, dou
     }
     if (count == 0)
         return glance;
-    qsort(distances, (size_t)count, sizeof *distances, compare_doubles);
+    nook_order_numbers(distances, (size_t)count);
     glance.geometry = count / (double)(SIDE * SIDE);
     glance.near = close / (double)count;
     glance.backs = backs / (double)count;

@@ -1,6 +1,7 @@
 #include "game/commands/bench_ecs.h"
 #include "engine/core/clock.h"
 #include "engine/core/log.h"
+#include "engine/core/order.h"
 #include "engine/ecs/query.h"
 #include <stdlib.h>
 
@@ -107,18 +108,10 @@ static nook_result run_round(ecs_bench *b, double *out_ns)
     return destroy_each(b);
 }
 
-static int compare_numbers(const void *a, const void *b)
-{
-    double first = *(const double *)a, second = *(const double *)b;
-    return (first > second) - (first < second);
-}
-
 static nook_bench_times summarise(double *values, uint32_t count)
 {
-    qsort(values, count, sizeof *values, compare_numbers);
-    return (nook_bench_times){ .median = (values[(count - 1) / 2] + values[count / 2]) / 2,
-                               .lowest = values[0],
-                               .highest = values[count - 1] };
+    double median = nook_median(values, count); /* leaves them ordered */
+    return (nook_bench_times){ .median = median, .lowest = values[0], .highest = values[count - 1] };
 }
 
 static nook_result set_up(ecs_bench *b, uint32_t entity_count)

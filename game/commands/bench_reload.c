@@ -3,18 +3,14 @@
 #include "engine/core/clock.h"
 #include "engine/core/file.h"
 #include "engine/core/log.h"
+#include "engine/core/order.h"
+#include "game/commands/bench_stage.h"
 #include "game/commands/benches.h"
 #include "game/compare/camera.h"
 #include "game/live/shader_reload.h"
-#include "game/option_rows.h"
 #include "game/scratch_folder.h"
-#include "game/settings/settings_file.h"
-#include "game/stage.h"
-#include "game/techniques.h"
-#include "game/volumes.h"
 #include <dirent.h>
 #include <stdlib.h>
-#include <string.h>
 
 enum { SAVES_MAX = 1000, PATH_CAPACITY = 4096 };
 static const double patience_ms = 60000.0;
@@ -24,11 +20,8 @@ static const char *const files[] = { "shaders/render/lighting.frag.glsl", "shade
                                      "shaders/ao/frame.glsl", "shaders/render/frame.glsl" };
 
 typedef struct reload_options {
-    const char *scene, *settings, *cache;
-    nook_option_size size;
-    nook_backend backend;
+    nook_bench_stage_options stage;
     int32_t saves;
-    char default_scene[NOOK_OPTION_PATH_MAX], default_cache[NOOK_OPTION_PATH_MAX];
 } reload_options;
 
 typedef struct reload_times {
@@ -40,12 +33,8 @@ typedef struct reload_times {
 
 static bool read_options(const nook_app *app, int argc, char **argv, reload_options *out, int *out_exit_code)
 {
-    *out = (reload_options){ .size = { 640, 360 }, .saves = 20, .backend = NOOK_BACKEND_AUTO };
-    out->scene = nook_option_default_scene(app, out->default_scene);
-    out->cache = nook_option_default_cache(app, out->default_cache);
+    out->saves = 20;
     const nook_option options[] = {
-        nook_option_row_size(&out->size, "of the pictures in pixels; default 640x360"),
-        nook_option_row_settings(&out->settings, "technique and parameters; default: volume as it comes"),
         { .name = "saves",
           .kind = NOOK_OPTION_INT,
           .target = &out->saves,
@@ -53,15 +42,11 @@ static bool read_options(const nook_app *app, int argc, char **argv, reload_opti
           .lowest = 1,
           .highest = SAVES_MAX,
           .help = "of each file; default 20" },
-        nook_option_row_backend(&out->backend),
-        nook_option_row_cache(&out->cache, "where baked volumes are kept; default: cache/ of Nook"),
     };
     const nook_usage usage = {
         .command = "bench reload",
         .summary =
             "Times how soon a saved shader is in the picture, on the first camera of a scene, default the demo level.",
-        .positionals = "[SCENE]",
-        .positional_max = 1,
         .options = options,
         .option_count = NOOK_COUNT(options),
         .details =
@@ -69,23 +54,7 @@ static bool read_options(const nook_app *app, int argc, char **argv, reload_opti
             "picture with the new program; frames follow each other without a pause. Works on a copy of the\n"
             "shaders, with the driver's cache of compiled shaders switched off, as if what is saved were new.\n"
     };
-    nook_arguments arguments;
-    if (!nook_arguments_read(&usage, argc, argv, &arguments, out_exit_code))
-        return false;
-    if (arguments.positional_count > 0)
-        out->scene = arguments.positionals[0];
-    return true;
-}
-
-static nook_result copy_file(const char *from, const char *to)
-{
-    nook_file file;
-    nook_result result = nook_file_read(from, &file);
-    if (result != NOOK_OK)
-        return result;
-    result = nook_file_write(to, file.bytes, file.size);
-    nook_file_free(&file);
-    return result;
+    return nook_bench_stage_read(app, &usage, argc, argv, &out->stage, out_exit_code);
 }
 
 /* A folder with all in it that has no dot in front of its name. */
@@ -102,8 +71,8 @@ static nook_result copy_folder(const char *from, const char *to)
             continue;
         nook_path_join(inner_from, sizeof inner_from, from, entry->d_name);
         nook_path_join(inner_to, sizeof inner_to, to, entry->d_name);
-        result =
-            nook_directory_exists(inner_from) ? copy_folder(inner_from, inner_to) : copy_file(inner_from, inner_to);
+        result = nook_directory_exists(inner_from) ? copy_folder(inner_from, inner_to)
+                                                   : nook_file_copy(inner_from, inner_to);
     }
     closedir(directory);
     return result;
@@ -176,19 +145,13 @@ static nook_result time_save(nook_stage *stage, const nook_camera *camera, nook_
     return result;
 }
 
-static int by_size(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static void print_times(const char *name, reload_times *times, int32_t count)
 {
-    qsort(times->total, (size_t)count, sizeof(double), by_size);
-    qsort(times->building, (size_t)count, sizeof(double), by_size);
-    qsort(times->work, (size_t)count, sizeof(double), by_size);
-    printf("  %-34s %9u %9.0f %9.0f %9.0f %9.0f %9.0f\n", name, times->programs, times->building[count / 2],
-           times->work[count / 2], times->total[count / 2], times->total[0], times->total[count - 1]);
+    size_t saves = (size_t)count;
+    double building = nook_median(times->building, saves), work = nook_median(times->work, saves);
+    double total = nook_median(times->total, saves); /* leaves them ordered */
+    printf("  %-34s %9u %9.0f %9.0f %9.0f %9.0f %9.0f\n", name, times->programs, building, work, total, times->total[0],
+           times->total[count - 1]);
 }
 
 static nook_result time_files(nook_stage *stage, const nook_camera *camera, const char *root,
@@ -209,38 +172,18 @@ static nook_result time_files(nook_stage *stage, const nook_camera *camera, cons
     return result;
 }
 
-static nook_result prepare(nook_stage *stage, const reload_options *options, nook_camera *out_camera)
-{
-    nook_settings_file settings = { .setting = nook_setting_initial(nook_technique_find("volume")) };
-    char label[128];
-    nook_result result = options->settings ? nook_settings_file_read(options->settings, &settings) : NOOK_OK;
-    double r_max = settings.r_max > 0.0 ? settings.r_max : nook_volumes_default_r_max(stage->scene);
-    if (result == NOOK_OK)
-        result = nook_setting_apply(stage->ao, &settings.setting);
-    if (result == NOOK_OK)
-        result = nook_ao_set_param(stage->ao, "ao.r_max", r_max);
-    if (result == NOOK_OK)
-        result = nook_stage_fill(stage, &(nook_game_world_desc){ settings.setting.resolution, r_max, options->cache });
-    if (result == NOOK_OK)
-        result = nook_camera_choose(stage->scene, NULL, (double)stage->width / stage->height, out_camera, label,
-                                    sizeof label);
-    return result == NOOK_OK ? draw(stage, out_camera) : result;
-}
-
 static nook_result run(const reload_options *options, const char *root)
 {
-    const nook_stage_desc desc = { .root = root,
-                                   .scene_path = options->scene,
-                                   .backend = options->backend,
-                                   .width = (uint32_t)options->size.width,
-                                   .height = (uint32_t)options->size.height };
     nook_stage stage;
     nook_camera camera;
     nook_shader_reload *reload = NULL;
-    nook_result result = nook_stage_open(&desc, &stage);
+    char label[128];
+    nook_result result = nook_bench_stage_open(&options->stage, root, false, &stage, NULL);
     if (result != NOOK_OK)
         return result;
-    result = prepare(&stage, options, &camera);
+    result = nook_camera_choose(stage.scene, NULL, (double)stage.width / stage.height, &camera, label, sizeof label);
+    if (result == NOOK_OK)
+        result = draw(&stage, &camera); /* whose programs are compiled */
     if (result == NOOK_OK)
         result = nook_shader_reload_create(stage.gpu, &reload);
     if (result == NOOK_OK) {
@@ -248,7 +191,7 @@ static nook_result run(const reload_options *options, const char *root)
         result = draw(&stage, &camera);
         printf("%s, %u x %u, %s, a frame takes %.0f ms, %.0f ms of processor\n\n"
                "  %-34s %9s %9s %9s %9s %9s %9s\n",
-               options->scene, stage.width, stage.height, stage.gpu->renderer, nook_clock_ms() - start,
+               options->stage.scene, stage.width, stage.height, stage.gpu->renderer, nook_clock_ms() - start,
                nook_clock_cpu_ms() - cpu, "saved", "programs", "building", "processor", "to screen", "lowest",
                "highest");
     }

@@ -2,6 +2,7 @@
    what a ray costs. Crates are added, as levels have more bodies than the demo level. */
 #include "engine/core/clock.h"
 #include "engine/core/log.h"
+#include "engine/core/order.h"
 #include "game/commands/benches.h"
 #include "game/option_rows.h"
 #include "game/play/play.h"
@@ -97,12 +98,6 @@ static void throw_up(physics_bench *b, int32_t step)
 
 /* ---- timing ------------------------------------------------------------------------------------------------------ */
 
-static int by_size(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static nook_result time_steps(physics_bench *b, const char *name, void (*prepare)(physics_bench *, int32_t))
 {
     const int32_t warm = 5, steps = b->options->steps;
@@ -122,7 +117,7 @@ static nook_result time_steps(physics_bench *b, const char *name, void (*prepare
         contacts += statistics.contacts;
         awake += statistics.awake;
     }
-    qsort(b->ms, (size_t)steps, sizeof *b->ms, by_size);
+    nook_order_numbers(b->ms, (size_t)steps);
     printf("  %-10s %10.4f %10.4f %10.4f %10.1f %10.1f\n", name, b->ms[steps / 2], b->ms[steps * 95 / 100],
            b->ms[steps - 1], awake / steps, contacts / steps);
     return NOOK_OK;

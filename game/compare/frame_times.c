@@ -1,21 +1,10 @@
 #include "game/compare/frame_times.h"
 #include "engine/core/clock.h"
 #include "engine/core/log.h"
+#include "engine/core/order.h"
 #include "game/stage.h"
 #include <math.h>
 #include <stdlib.h>
-
-static int compare_doubles(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static double median(double *values, uint32_t count)
-{
-    qsort(values, count, sizeof *values, compare_doubles);
-    return 0.5 * (values[(count - 1) / 2] + values[count / 2]);
-}
 
 /* One frame's wall clock, and the GPU's own where it can be trusted. */
 static nook_result time_frame(nook_stage *stage, nook_gpu_timer timer, double *out_ms, double *out_gpu_ms)
@@ -45,11 +34,11 @@ static nook_result time_each(nook_stage *stage, nook_gpu_timer timer, uint32_t f
             return result;
         spent += times[done++];
     }
-    double middle = median(times, done); /* leaves them sorted */
+    double middle = nook_median(times, done); /* leaves them sorted */
     *out = (nook_frame_times){ .median = middle,
                                .min = times[0],
                                .max = times[done - 1],
-                               .gpu_median = timer.begin ? median(gpu_times, done) : NAN,
+                               .gpu_median = timer.begin ? nook_median(gpu_times, done) : NAN,
                                .frames = done };
     return NOOK_OK;
 }

@@ -1,6 +1,7 @@
 #include "game/compare/second_view.h"
 #include "engine/core/angle.h"
 #include "engine/core/log.h"
+#include "engine/core/order.h"
 #include "game/compare/run.h"
 #include "game/compare/surfaces.h"
 #include <math.h>
@@ -23,12 +24,6 @@ nook_camera nook_camera_turn(const nook_camera *camera, double distance, double 
     nook_camera second = *camera;
     second.view_from_world = nook_matrix_multiply(&turned, &camera->view_from_world);
     return second;
-}
-
-static int compare_floats(const void *a, const void *b)
-{
-    float x = *(const float *)a, y = *(const float *)b;
-    return (x > y) - (x < y);
 }
 
 /* Copies the distances of a part of the picture that shows something. */
@@ -56,7 +51,7 @@ nook_result nook_middle_distance(const float *distances, uint32_t width, uint32_
     if (count == 0)
         count = gather(distances, width, start, end, found);
     if (count > 0) {
-        qsort(found, count, sizeof *found, compare_floats);
+        nook_order_floats(found, count);
         *out_distance = (double)found[count / 2];
     }
     free(found);

@@ -1,4 +1,5 @@
 /* The usual scene drawn by the engine's renderer, far away: by its nodes' matrices, and by its vertices. */
+#include "engine/core/order.h"
 #include "game/extremes/edge_pictures.h"
 #include "game/extremes/edge_render.h"
 #include "game/extremes/space_internal.h"
@@ -147,12 +148,6 @@ nook_result nook_space_run_drawn_pictures(const nook_extremes *extremes, nook_ex
 
 /* ---- Vertices far away ---- */
 
-static int compare_numbers(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /** How far what is drawn is from where it should be, the median pixel; NAN when nothing is seen. */
 static nook_result median_error(const drawn *usual, const drawn *far, double *out_error)
 {
@@ -164,7 +159,7 @@ static nook_result median_error(const drawn *usual, const drawn *far, double *ou
         if (usual->distance[i] > 0.0f && far->distance[i] > 0.0f)
             errors[count++] = fabs((double)far->distance[i] - usual->distance[i]);
     }
-    qsort(errors, count, sizeof *errors, compare_numbers);
+    nook_order_numbers(errors, count);
     *out_error = count ? errors[count / 2] : NAN;
     free(errors);
     return NOOK_OK;

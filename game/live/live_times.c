@@ -1,5 +1,6 @@
 /* Where a frame's time goes. On software GL timer queries lie, so passes are waited for while their times are shown, and not else. */
 #include "engine/core/clock.h"
+#include "engine/core/order.h"
 #include "game/live/live_internal.h"
 #include <string.h>
 
@@ -95,18 +96,6 @@ void live_times_release(nook_live *live)
 
 /* ---- Pacing ----------------------------------------------------------------------------------------------------- */
 
-/* Few hundred numbers: insertion is quick enough, and allocates nothing. */
-static void sort(float *values, uint32_t count)
-{
-    for (uint32_t i = 1; i < count; i++) {
-        float value = values[i];
-        uint32_t at = i;
-        for (; at > 0 && values[at - 1] > value; at--)
-            values[at] = values[at - 1];
-        values[at] = value;
-    }
-}
-
 live_pacing live_times_pacing(const live_times *times)
 {
     float sorted[LIVE_TICKS];
@@ -115,7 +104,7 @@ live_pacing live_times_pacing(const live_times *times)
     if (count == 0)
         return pacing;
     memcpy(sorted, times->frames, count * sizeof *sorted);
-    sort(sorted, count);
+    nook_order_floats(sorted, count);
     pacing.median_ms = sorted[count / 2];
     pacing.p99_ms = sorted[(count - 1) * 99 / 100];
     pacing.worst_ms = sorted[count - 1];

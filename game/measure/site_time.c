@@ -1,12 +1,12 @@
 #include "game/measure/site_time.h"
 #include "engine/core/clock.h"
+#include "engine/core/order.h"
 #include "game/compare/frame_times.h"
 #include "game/measure/site_internal.h"
 #include "game/stage.h"
 #include "modules/ao/technique.h"
 #include <assert.h>
 #include <math.h>
-#include <stdlib.h>
 
 /* Frames of a round: as many as fit into its milliseconds. Slow frames are means over enough of a machine's moods to need fewer rounds. */
 enum { FRAMES_MIN = 1, FRAMES_MAX = 3, ROUND_MS = 80, SLOW_FRAME_MS = 120 };
@@ -58,26 +58,13 @@ nook_result nook_site_time_round(nook_site *site, const nook_setting *setting, n
     return NOOK_OK;
 }
 
-static int compare_doubles(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-/* Sorts. */
-static double median(double *values, uint32_t count)
-{
-    qsort(values, count, sizeof *values, compare_doubles);
-    return 0.5 * (values[(count - 1) / 2] + values[count / 2]);
-}
-
 void nook_site_times_put(const nook_site_times *times, nook_sample *sample)
 {
     assert(times->rounds > 0);
     nook_site_times sorted = *times;
-    sample->ms_median = median(sorted.ms, times->rounds);
+    sample->ms_median = nook_median(sorted.ms, times->rounds);
     sample->ms_min = sorted.ms[0];
     sample->ms_max = sorted.ms[times->rounds - 1];
-    sample->gpu_ms_median = median(sorted.gpu_ms, times->rounds);
+    sample->gpu_ms_median = nook_median(sorted.gpu_ms, times->rounds);
     sample->frames = times->rounds * times->frames;
 }

@@ -1,6 +1,6 @@
+#include "engine/core/order.h"
 #include "game/play/play_window.h"
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 void nook_frame_pacing_add(nook_frame_pacing *pacing, double ms)
@@ -11,19 +11,13 @@ void nook_frame_pacing_add(nook_frame_pacing *pacing, double ms)
         pacing->count++;
 }
 
-static int by_size(const void *a, const void *b)
-{
-    float x = *(const float *)a, y = *(const float *)b;
-    return (x > y) - (x < y);
-}
-
 double nook_frame_pacing_quantile(const nook_frame_pacing *pacing, double part)
 {
     float sorted[NOOK_PLAY_HISTORY];
     if (pacing->count == 0)
         return 0.0;
     memcpy(sorted, pacing->ms, pacing->count * sizeof *sorted); /* until the ring is full it is filled from its start */
-    qsort(sorted, pacing->count, sizeof *sorted, by_size);
+    nook_order_floats(sorted, pacing->count);
     double rank = ceil(fmin(fmax(part, 0.0), 1.0) * pacing->count); /* nearest rank */
     return (double)sorted[rank < 1.0 ? 0 : (uint32_t)rank - 1];
 }

@@ -6,8 +6,7 @@
 #include "game/exposure.h"
 #include "game/play/play_panels.h"
 #include "game/play/play_reload.h"
-#include "game/techniques.h"
-#include "game/volumes.h"
+#include "game/stage_settings.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -20,10 +19,8 @@ static const double rest_ms = 8.0;        /* of a frame in which nothing is to b
 /* What draws the light's shadow: the command line's, else the level's, else volume as it comes. */
 static nook_result read_settings(nook_play_window *w, const char *given)
 {
-    const char *path = given ? given : w->play.level->settings;
-    w->settings = (nook_settings_file){ .setting = nook_setting_initial(nook_technique_find("volume")) };
-    snprintf(w->settings_path, sizeof w->settings_path, "%s", path);
-    return *path ? nook_settings_file_read(path, &w->settings) : NOOK_OK;
+    snprintf(w->settings_path, sizeof w->settings_path, "%s", given ? given : w->play.level->settings);
+    return nook_stage_settings_read(w->settings_path, &w->settings);
 }
 
 static uint32_t picture_size(const nook_play_window *w, uint32_t pixels)
@@ -53,18 +50,6 @@ static nook_result open_stage(nook_play_window *w, const char *root, const nook_
     w->width = desc->width;
     w->height = desc->height;
     return NOOK_OK;
-}
-
-static nook_result fill_stage(nook_play_window *w, const char *cache)
-{
-    double r_max = w->settings.r_max > 0.0 ? w->settings.r_max : nook_volumes_default_r_max(w->stage.scene);
-    const nook_game_world_desc world = { w->settings.setting.resolution, r_max, cache };
-    nook_result result = nook_setting_apply(w->stage.ao, &w->settings.setting);
-    if (result == NOOK_OK)
-        result = nook_ao_set_param(w->stage.ao, "ao.r_max", r_max);
-    if (result == NOOK_OK && w->settings.falloff[0])
-        result = nook_ao_parse_param(w->stage.ao, "ao.falloff", w->settings.falloff);
-    return result == NOOK_OK ? nook_stage_fill(&w->stage, &world) : result;
 }
 
 static nook_camera camera_of(const nook_play_window *w, double alpha)
@@ -97,7 +82,7 @@ static nook_result pass_time(nook_play_window *w, double seconds)
 
 static nook_result begin(nook_play_window *w, const nook_play_window_desc *desc)
 {
-    nook_result result = fill_stage(w, desc->cache);
+    nook_result result = nook_stage_fill_as_set(&w->stage, &w->settings, desc->cache);
     if (result == NOOK_OK)
         result = nook_play_begin(&w->play, w->stage.scene, w->stage.world);
     if (result == NOOK_OK)

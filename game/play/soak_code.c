@@ -44,15 +44,10 @@ nook_result nook_soak_code_open(const char *root, nook_play_window_desc *how, no
 
 static nook_result put(const nook_soak_code *code, const char *name)
 {
-    char file_name[128], path[1200];
-    nook_file file;
+    char file_name[128], from[1200], to[1200];
     snprintf(file_name, sizeof file_name, "%s.so", name);
-    nook_result result = nook_file_read(nook_path_join(path, sizeof path, code->built, file_name), &file);
-    if (result != NOOK_OK)
-        return result;
-    result = nook_file_write(nook_path_join(path, sizeof path, code->folder.path, file_name), file.bytes, file.size);
-    nook_file_free(&file);
-    return result;
+    return nook_file_copy(nook_path_join(from, sizeof from, code->built, file_name),
+                          nook_path_join(to, sizeof to, code->folder.path, file_name));
 }
 
 nook_result nook_soak_code_exchange(nook_soak_code *code)

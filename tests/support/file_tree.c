@@ -76,21 +76,13 @@ void file_tree_replace(const file_tree *tree, const char *path, const char *text
     assert_int_equal(rename(fresh, full), 0);
 }
 
-static void copy_file(const char *from, const char *to)
-{
-    nook_file file;
-    assert_int_equal(nook_file_read(from, &file), NOOK_OK);
-    assert_int_equal(nook_file_write(to, file.bytes, file.size), NOOK_OK);
-    nook_file_free(&file);
-}
-
 static void copy_all(const char *from, const char *to)
 {
     char inner_from[PATH_CAPACITY], inner_to[PATH_CAPACITY];
     const struct dirent *entry;
     DIR *directory = nook_directory_exists(from) ? opendir(from) : NULL;
     if (!directory) {
-        copy_file(from, to);
+        assert_int_equal(nook_file_copy(from, to), NOOK_OK);
         return;
     }
     assert_int_equal(nook_directory_make(to), NOOK_OK);
