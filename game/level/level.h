@@ -60,6 +60,7 @@ typedef struct nook_level_entity {
     double slide[3], swing[3]; /**< Mover: metres, and degrees, from closed to open. */
     double seconds;            /**< Mover: from closed to open. Plate, shade: how long it must hold. */
     double axis[3], rpm;       /**< Spinner: unit, own space. */
+    bool latch;                /**< Plate, shade, mover, spinner: stays open for the rest of the try once it opened. */
     double weight;             /**< Plate: kilograms. */
     char accepts
         [NOOK_LEVEL_NAME_SIZE]; /**< Plate: only bodies of this name, "crate_*" for several; "" all, the player too. */

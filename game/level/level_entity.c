@@ -19,7 +19,7 @@ enum {
     SOLID = BODY | FIXED | MOVER | SPINNER | PLATE | SHADE
 };
 
-typedef enum line_type { TEXT, NUMBERS, SHAPE, NAMES } line_type;
+typedef enum line_type { TEXT, NUMBERS, SHAPE, NAMES, YES_NO } line_type;
 
 /* A line that entities can have. */
 typedef struct entity_line {
@@ -44,6 +44,7 @@ static const entity_line entity_lines[] = {
     { "slide", MOVER, 0, NUMBERS, 3, -1e3, 1e3, AT(slide) },
     { "swing", MOVER, 0, NUMBERS, 3, -360, 360, AT(swing) },
     { "seconds", MOVER | PLATE | SHADE, MOVER, NUMBERS, 1, 0, 3600, AT(seconds) },
+    { "latch", MOVER | SPINNER | PLATE | SHADE, 0, YES_NO, 0, 0, 0, AT(latch) },
     { "axis", SPINNER, SPINNER, NUMBERS, 3, -1e3, 1e3, AT(axis) },
     { "rpm", SPINNER, SPINNER, NUMBERS, 1, -600, 600, AT(rpm) },
     { "weight", PLATE, PLATE, NUMBERS, 1, 1e-3, 1e6, AT(weight) },
@@ -191,6 +192,15 @@ static nook_result read_needs(const nook_level_reading *r, const char *value, no
     return NOOK_OK;
 }
 
+static nook_result read_yes_no(const nook_level_reading *r, const char *name, const char *value, bool *out)
+{
+    bool yes = strcmp(value, "yes") == 0;
+    if (!yes && strcmp(value, "no") != 0)
+        return nook_fail(NOOK_E_FORMAT, "%s: %s is %s; give yes or no", r->lines.where, name, value);
+    *out = yes;
+    return NOOK_OK;
+}
+
 static nook_result read_value(nook_level_reading *r, const entity_line *line, const char *value)
 {
     nook_level_entity *entity = last_entity(r);
@@ -204,6 +214,8 @@ static nook_result read_value(nook_level_reading *r, const entity_line *line, co
         return read_shape(r, value, target);
     case NAMES:
         return read_needs(r, value, entity);
+    case YES_NO:
+        return read_yes_no(r, line->name, value, target);
     }
     return NOOK_OK;
 }

@@ -138,6 +138,8 @@ void session_measure_locks(nook_session *s)
         if (!session_is_lock(entity) || rule->thing == NOOK_NONE)
             continue;
         rule->holds = entity->kind == NOOK_LEVEL_PLATE ? plate_holds(s, entity, rule) : shade_holds(s, entity, rule);
+        if (entity->latch && session_rule_open(s, i))
+            continue;
         if (!rule->holds)
             rule->progress = 0.0;
         else if (entity->seconds > 0.0)

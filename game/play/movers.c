@@ -28,12 +28,19 @@ static nook_pose mover_pose(const session_thing *thing, const nook_level_entity 
     return nook_pose_multiply(&pose, &swung);
 }
 
+/* Whether it opens. One that latches needs only once what it needs. */
+static bool opens(const nook_session *s, uint32_t index)
+{
+    bool begun = s->rules[index].progress > 0.0;
+    return session_needs_met(s, index) || (s->desc.level->entities[index].latch && begun);
+}
+
 static void move(nook_session *s, uint32_t index)
 {
     session_rule *rule = &s->rules[index];
     const nook_level_entity *entity = &s->desc.level->entities[index];
     const session_thing *thing = &s->things[rule->thing];
-    double target = session_needs_met(s, index) ? 1.0 : 0.0;
+    double target = opens(s, index) ? 1.0 : 0.0;
     rule->progress = towards(rule->progress, target, NOOK_PHYSICS_STEP / entity->seconds);
     nook_pose pose = mover_pose(thing, entity, rule->progress);
     nook_physics_move(s->physics, thing->body, &pose);
@@ -44,7 +51,7 @@ static void spin(nook_session *s, uint32_t index)
     session_rule *rule = &s->rules[index];
     const nook_level_entity *entity = &s->desc.level->entities[index];
     const session_thing *thing = &s->things[rule->thing];
-    double target = session_needs_met(s, index) ? 1.0 : 0.0, turned[4];
+    double target = opens(s, index) ? 1.0 : 0.0, turned[4];
     rule->progress = towards(rule->progress, target, NOOK_PHYSICS_STEP / spin_up_seconds);
     rule->angle += rule->progress * entity->rpm / 60.0 * 2.0 * NOOK_PI * NOOK_PHYSICS_STEP;
     rule->angle -= 2.0 * NOOK_PI * floor(rule->angle / (2.0 * NOOK_PI));

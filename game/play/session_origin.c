@@ -17,11 +17,11 @@ static uint64_t mix_level(uint64_t hash, const nook_level *level)
 /* Number for number, as names have bytes behind their end. */
 static uint64_t mix_entity(uint64_t hash, const nook_level_entity *e)
 {
-    const double numbers[] = { e->kind,     e->shape,     e->mass,     e->friction, e->restitution, e->slide[0],
-                               e->slide[1], e->slide[2],  e->swing[0], e->swing[1], e->swing[2],    e->seconds,
-                               e->axis[0],  e->axis[1],   e->axis[2],  e->rpm,      e->weight,      e->visibility,
-                               e->reach,    e->size[0],   e->size[1],  e->size[2],  e->at[0],       e->at[1],
-                               e->at[2],    e->need_count };
+    const double numbers[] = { e->kind,     e->shape,      e->mass,     e->friction, e->restitution, e->slide[0],
+                               e->slide[1], e->slide[2],   e->swing[0], e->swing[1], e->swing[2],    e->seconds,
+                               e->axis[0],  e->axis[1],    e->axis[2],  e->rpm,      e->weight,      e->visibility,
+                               e->reach,    e->size[0],    e->size[1],  e->size[2],  e->at[0],       e->at[1],
+                               e->at[2],    e->need_count, e->latch };
     hash = session_mix(hash, numbers, sizeof numbers);
     hash = mix_text(mix_text(hash, e->name), e->accepts);
     for (uint32_t i = 0; i < e->need_count; i++)

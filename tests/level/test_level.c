@@ -86,11 +86,11 @@ static void test_every_kind_of_entity_is_read(void **state)
                   "[plate p]\nweight = 14\naccepts = gear\nseconds = 0.5\n"
                   "[shade s]\nvisibility = 0.4\nreach = 1.5\n"
                   "[mover m]\nswing = 0 -100 0\nslide = 1 0 0\nseconds = 4\nneeds = p s\n"
-                  "[spinner w]\naxis = 0 0 -2\nrpm = -40\n"
+                  "[spinner w]\naxis = 0 0 -2\nrpm = -40\nlatch = yes\n"
                   "[goal g]\nat = 10 3 0\nsize = 1 2 3\nneeds = m w\n");
     static const nook_level_kind kinds[] = { NOOK_LEVEL_BODY,  NOOK_LEVEL_FIXED,   NOOK_LEVEL_PLATE, NOOK_LEVEL_SHADE,
                                              NOOK_LEVEL_MOVER, NOOK_LEVEL_SPINNER, NOOK_LEVEL_GOAL };
-    static const unsigned lines[] = { 2, 7, 11, 15, 18, 23, 26 };
+    static const unsigned lines[] = { 2, 7, 11, 15, 18, 23, 27 };
     const nook_level_entity *e = level->entities;
     assert_int_equal(level->entity_count, 7);
     for (uint32_t i = 0; i < 7; i++) {
@@ -112,6 +112,7 @@ static void test_every_kind_of_entity_is_read(void **state)
     assert_int_equal(e[4].need_count, 2);
     assert_string_equal(e[4].needs[1], "s");
     assert_true(e[5].axis[2] == -1.0 && e[5].rpm == -40.0); /* of length one */
+    assert_true(e[5].latch && !e[4].latch);
     assert_true(e[6].size[2] == 3.0 && e[6].at[1] == 3.0);
     assert_string_equal(e[6].node, "");
     nook_level_free(level);
@@ -220,6 +221,8 @@ static void test_lines_of_entities_that_are_wrong_are_named(void **state)
     must_refuse(BODY "shape = mesh\n", "2", "bodies cannot have the shape mesh");
     must_refuse(BODY "at = 1 2\n", "3", "give three numbers");
     must_refuse(BODY "at =\n", "3", "give name = value");
+    must_refuse(BODY "latch = yes\n", "3", "a body has no latch");
+    must_refuse("scene = a.glb\n[plate p]\nlatch = 1\n", "3", "latch is 1; give yes or no");
 #undef BODY
 }
 

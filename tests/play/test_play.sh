@@ -81,6 +81,14 @@ test_the_pilot_wins_and_what_it_did_can_be_replayed() {
     [ "$again" = "$last" ]
 }
 
+# Beyond the gates there is no other way out: who passed them must not be shut in.
+test_the_gates_that_opened_stay_open_when_a_part_is_taken_off_its_plate() {
+    sed 's/^wait_for gate_left$/&\nwalk_to 1.2 -0.9\ntake loose_gear\nwait_for gear_plate 0\nturn_to 0 -20\ndrop\nwait 6/' \
+        $house.pilot >"$tmp/greedy.pilot"
+    [ "$(wc -l <"$tmp/greedy.pilot")" -eq $(($(wc -l <$house.pilot) + 6)) ]
+    ends_with "$(play --pilot "$tmp/greedy.pilot" | tail -n 1)" won
+}
+
 test_a_pilot_that_fails_is_said_and_is_a_failure() {
     local said
     printf 'within 1\nwalk_to 100 0\n' >"$tmp/lost.pilot"

@@ -200,6 +200,58 @@ static void test_a_mover_ends_exactly_where_it_should_and_goes_back(void **state
     play_room_close(&room);
 }
 
+/* How far the entities are when the player, who weighs 80 kg, has stood on the plate until it was down, and two seconds after he left it. */
+static void leave_plate(const char *entities, const char *const names[2], double out_on[2], double out_off[2])
+{
+    play_room room = play_room_open(PLATE PLAY_BOX("door", 3, 1, -2, 1, 2, 0.1, ""), entities);
+    play_room_tick(&room, &forward, 52);
+    play_room_wait(&room, 0.5);
+    for (int i = 0; i < 2; i++)
+        out_on[i] = state_of(&room, names[i]);
+    play_room_tick(&room, &forward, 60);
+    play_room_wait(&room, 2.0);
+    for (int i = 0; i < 2; i++)
+        out_off[i] = state_of(&room, names[i]);
+    assert_true(nook_session_measure_of(room.session, "plate") == 0.0);
+    assert_int_equal(nook_session_restart(room.session), NOOK_OK);
+    assert_true(state_of(&room, names[0]) == 0.0 && state_of(&room, names[1]) == 0.0);
+    play_room_close(&room);
+}
+
+static void test_what_latches_stays_open_until_the_next_try(void **state)
+{
+    (void)state;
+    const char *const names[2] = { "plate", "door" };
+    double on[2], off[2];
+    leave_plate("[plate plate]\nweight = 70\n[mover door]\nslide = 0 1 0\nseconds = 1\nneeds = plate\n", names, on,
+                off);
+    assert_true(on[0] == 1.0 && on[1] > 0.0 && on[1] < 1.0);
+    assert_true(off[0] == 0.0 && off[1] == 0.0);
+    leave_plate("[plate plate]\nweight = 70\nlatch = yes\n[mover door]\nslide = 0 1 0\nseconds = 1\nneeds = plate\n",
+                names, on, off);
+    assert_true(off[0] == 1.0 && off[1] == 1.0);
+    leave_plate("[plate plate]\nweight = 70\nlatch = no\n[mover door]\nslide = 0 1 0\nseconds = 1\nneeds = plate\n"
+                "latch = yes\n",
+                names, on, off);
+    assert_true(on[1] > 0.0 && on[1] < 1.0); /* on its way: it goes on */
+    assert_true(off[0] == 0.0 && off[1] == 1.0);
+    leave_plate("[plate plate]\nweight = 70\n[spinner door]\naxis = 0 1 0\nrpm = 4\nneeds = plate\nlatch = yes\n",
+                names, on, off);
+    assert_true(off[0] == 0.0 && off[1] > on[1]);
+}
+
+static void test_a_lock_that_latches_must_hold_for_its_seconds_first(void **state)
+{
+    (void)state;
+    play_room room = play_room_open(PLATE, "[plate plate]\nweight = 70\nseconds = 2\nlatch = yes\n");
+    play_room_tick(&room, &forward, 50);
+    play_room_wait(&room, 0.5);
+    assert_true(state_of(&room, "plate") > 0.1 && state_of(&room, "plate") < 1.0);
+    play_room_tick(&room, &forward, 60);
+    assert_true(state_of(&room, "plate") == 0.0);
+    play_room_close(&room);
+}
+
 static void test_a_mover_takes_its_seconds(void **state)
 {
     (void)state;
@@ -302,6 +354,8 @@ int main(void)
         cmocka_unit_test(test_a_shade_counts_only_what_is_within_its_reach),
         cmocka_unit_test(test_a_shade_opens_when_its_night_is_built),
         cmocka_unit_test(test_a_mover_ends_exactly_where_it_should_and_goes_back),
+        cmocka_unit_test(test_what_latches_stays_open_until_the_next_try),
+        cmocka_unit_test(test_a_lock_that_latches_must_hold_for_its_seconds_first),
         cmocka_unit_test(test_a_mover_takes_its_seconds),
         cmocka_unit_test(test_a_spinner_turns_as_often_as_it_should),
         cmocka_unit_test(test_a_spinner_waits_for_what_it_needs),
