@@ -67,6 +67,8 @@ nook_result nook_play_read_again(const nook_play *play, bool skip_images, nook_l
 nook_result nook_play_go_on(nook_play *play, nook_level *level, const nook_scene *scene, nook_game_world *world);
 /** Whether nothing but the player would give the next input. */
 bool nook_play_is_free(const nook_play *play);
+/** Whether it can be won or lost: it has goals, or a time. */
+bool nook_play_can_end(const nook_level *level);
 /** Whether it was won or lost 2 s ago: time to see what that looks like, for who plays without a window. */
 bool nook_play_is_beyond_end(const nook_play *play);
 /** One line on standard output: won, lost, ended (where nothing can be won) or undecided, after how many ticks, and the hash of the state. */

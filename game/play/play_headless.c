@@ -2,24 +2,6 @@
 #include "engine/core/log.h"
 #include "game/interrupt.h"
 #include "game/play/play.h"
-#include <stdio.h>
-
-static const double seconds_beyond_the_end = 2.0;
-
-static bool can_end(const nook_level *level)
-{
-    for (uint32_t i = 0; i < level->entity_count; i++) {
-        if (level->entities[i].kind == NOOK_LEVEL_GOAL)
-            return true;
-    }
-    return level->seconds > 0.0;
-}
-
-bool nook_play_is_beyond_end(const nook_play *play)
-{
-    double beyond = (double)(nook_session_look(play->session).ticks - play->ended_at) * NOOK_PHYSICS_STEP;
-    return play->ended_at > 0 && beyond >= seconds_beyond_the_end;
-}
 
 static bool is_driven(const nook_play *play)
 {
@@ -32,17 +14,6 @@ static bool is_over(const nook_play *play)
     if (nook_play_is_beyond_end(play))
         return true;
     return nook_play_is_free(play) && (is_driven(play) || !(play->level->seconds > 0.0));
-}
-
-void nook_play_print_end(const nook_play *play)
-{
-    static const char *const words[] = { "undecided", "won", "lost" };
-    bool decided = can_end(play->level);
-    nook_session_view view = nook_session_look(play->session);
-    uint64_t ticks = play->ended_at > 0 ? play->ended_at : view.ticks;
-    printf("%s after %llu ticks (%.1f s), hash %016llx\n", decided ? words[view.status] : "ended",
-           (unsigned long long)ticks, (double)ticks * NOOK_PHYSICS_STEP,
-           (unsigned long long)nook_session_hash(play->session));
 }
 
 nook_result nook_play_headless(nook_play *play, bool *out_orderly)
@@ -58,6 +29,6 @@ nook_result nook_play_headless(nook_play *play, bool *out_orderly)
     }
     nook_play_print_end(play);
     *out_orderly = !nook_interrupt_asked() && play->pilot_status != NOOK_PILOT_FAILED &&
-                   (!can_end(play->level) || play->ended_at > 0 || play->replay.level[0] != '\0');
+                   (!nook_play_can_end(play->level) || play->ended_at > 0 || play->replay.level[0] != '\0');
     return NOOK_OK;
 }
