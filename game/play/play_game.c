@@ -181,9 +181,9 @@ nook_result nook_play_go_on(nook_play *play, nook_level *level, const nook_scene
     nook_level_free(play->level);
     play->session = session;
     play->level = level;
-    play->recording_ended = true;
-    if (*play->record_path)
+    if (*play->record_path && !play->recording_ended)
         nook_log_warning("%s: the level has changed; %s ends here", level->path, play->record_path);
+    play->recording_ended = true;
     return NOOK_OK;
 }
 

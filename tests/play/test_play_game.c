@@ -225,7 +225,18 @@ static void test_a_level_that_changes_on_disk_is_gone_on_in(void **state)
         assert_int_equal(nook_play_tick(&play, &forward), NOOK_OK);
     assert_int_equal(play.recording.tick_count, 30);
     assert_true(nook_session_look(play.session).feet[2] < before.feet[2] - 0.9);
+
+    nook_scene *next_scene;
+    nook_game_world *next_world;
+    assert_int_equal(nook_play_read_again(&play, true, &level, &next_scene), NOOK_OK);
+    assert_int_equal(nook_game_world_create(next_scene, &next_world), NOOK_OK);
+    nook_log_capture_begin(&log);
+    assert_int_equal(nook_play_go_on(&play, level, next_scene, next_world), NOOK_OK);
+    nook_log_capture_end();
+    assert_int_equal(log.count, 0); /* it ended before */
     assert_int_equal(nook_play_close(&play), NOOK_OK);
+    nook_game_world_destroy(next_world);
+    nook_scene_destroy(next_scene);
     nook_game_world_destroy(world);
     nook_scene_destroy(scene);
 }
