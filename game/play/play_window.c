@@ -253,6 +253,14 @@ static nook_result fit_picture(nook_play_window *w)
     return nook_stage_set_size(&w->stage, width, height);
 }
 
+/* A pointer on its way to a panel neither looks around nor takes what it clicks at. */
+static void forget_mouse(nook_input *input)
+{
+    input->mouse_dx = input->mouse_dy = 0.0;
+    memset(input->mouse_down, 0, sizeof input->mouse_down);
+    memset(input->mouse_pressed, 0, sizeof input->mouse_pressed);
+}
+
 /* What a frame's keys and mouse do. */
 static void use_input(nook_play_window *w, const nook_input *input, double seconds)
 {
@@ -260,6 +268,8 @@ static void use_input(nook_play_window *w, const nook_input *input, double secon
     read_keys(w, input);
     capture_mouse(w, input);
     nook_live_input(w->live, input, !w->captured, &rest);
+    if (!w->captured)
+        forget_mouse(&rest);
     if (w->paused)
         nook_controls_skip(&w->controls, input);
     else
