@@ -40,23 +40,14 @@ static void measure_clips(nook_scene_pose *pose, nook_live_volumes *volumes, dou
         }
 }
 
-/* The most by which a matrix lengthens one of its axes. */
-static double largest_scale(const nook_matrix *matrix)
-{
-    double largest = 0.0;
-    for (int column = 0; column < 3; column++)
-        largest = fmax(largest, nook_vector_length(matrix->m + column * 4));
-    return largest;
-}
-
 /* @param sides  the most that any pose takes, metres, mesh space */
 static void choose_size(const nook_scene_pose *pose, double r_max, const double sides[3], nook_live_volume *volume)
 {
     const nook_deformable *d = &pose->scene->deformables[volume->deformable];
     const nook_box *rest = &pose->meshes[volume->deformable].box;
     double longest = longest_side(rest), largest = fmax(sides[0], fmax(sides[1], sides[2]));
-    uint32_t resolution = nook_volumes_body_resolution(longest * largest_scale(&pose->world_from_local[d->node]), r_max,
-                                                       NOOK_VOLUMES_RESOLUTION_DEFAULT);
+    uint32_t resolution = nook_volumes_body_resolution(
+        longest * nook_matrix_longest_axis(&pose->world_from_local[d->node]), r_max, NOOK_VOLUMES_RESOLUTION_DEFAULT);
     volume->voxel_size = fmax(longest / resolution, largest / (NOOK_AO_LIVE_SIDE_MAX - 4));
     for (int k = 0; k < 3; k++) {
         double wanted = ceil(sides[k] / volume->voxel_size) + 4.0; /* borders, and where the grid begins */

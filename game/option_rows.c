@@ -19,7 +19,7 @@ static nook_option make_text(const char *name, const char **target, const char *
     };
 }
 
-static nook_option make_int(const char *name, int32_t *target, int32_t lowest, int32_t highest, const char *help)
+nook_option nook_option_row_int(const char *name, int32_t *target, int32_t lowest, int32_t highest, const char *help)
 {
     return (nook_option){ .name = name,
                           .kind = NOOK_OPTION_INT,
@@ -28,6 +28,11 @@ static nook_option make_int(const char *name, int32_t *target, int32_t lowest, i
                           .help = help,
                           .lowest = lowest,
                           .highest = highest };
+}
+
+nook_option nook_option_row_flag(const char *name, bool *target, const char *help)
+{
+    return (nook_option){ .name = name, .kind = NOOK_OPTION_FLAG, .target = target, .help = help };
 }
 
 nook_option nook_option_row_backend(nook_backend *target)
@@ -81,12 +86,12 @@ nook_option nook_option_row_settings(const char **target, const char *help)
 
 nook_option nook_option_row_reference_rays(int32_t *target, int32_t lowest, const char *help)
 {
-    return make_int("reference-rays", target, lowest, RAYS_MAX, help);
+    return nook_option_row_int("reference-rays", target, lowest, RAYS_MAX, help);
 }
 
 nook_option nook_option_row_resolution(int32_t *target, const char *help)
 {
-    return make_int("resolution", target, 1, NOOK_VOXELIZE_RESOLUTION_MAX, help);
+    return nook_option_row_int("resolution", target, 1, NOOK_VOXELIZE_RESOLUTION_MAX, help);
 }
 
 nook_option nook_option_row_cache(const char **target, const char *help)
@@ -101,7 +106,7 @@ nook_option nook_option_row_json_file(const char **target)
 
 nook_option nook_option_row_json(bool *target, const char *help)
 {
-    return (nook_option){ .name = "json", .kind = NOOK_OPTION_FLAG, .target = target, .help = help };
+    return nook_option_row_flag("json", target, help);
 }
 
 const char *nook_option_default_scene(const nook_app *app, char out[NOOK_OPTION_PATH_MAX])

@@ -8,6 +8,11 @@
 
 enum { NOOK_OPTION_PATH_MAX = 4096 };
 
+/** A row of a command's own: --name N, a whole number in [lowest, highest]. */
+nook_option nook_option_row_int(const char *name, int32_t *target, int32_t lowest, int32_t highest, const char *help);
+/** The same: --name. */
+nook_option nook_option_row_flag(const char *name, bool *target, const char *help);
+
 /** --backend NAME. */
 nook_option nook_option_row_backend(nook_backend *target);
 /** --size WxH, in pixels. */

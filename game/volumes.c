@@ -142,15 +142,6 @@ static double longest_side(const nook_scene_volume *volume)
     return longest;
 }
 
-/* The most by which a matrix lengthens one of its axes. */
-static double largest_scale(const nook_matrix *matrix)
-{
-    double largest = 0.0;
-    for (int column = 0; column < 3; column++)
-        largest = fmax(largest, nook_vector_length(matrix->m + column * 4));
-    return largest;
-}
-
 /* ---- Bodies ----------------------------------------------------------------------------------------------------- */
 
 static bool usable_matrix(const nook_matrix *matrix)
@@ -305,7 +296,7 @@ static void choose_resolutions(nook_scene_volumes *volumes, uint32_t resolution)
         nook_scene_volume *volume = &volumes->volumes[occluder->volume];
         uint32_t needed = resolution;
         if (occluder->node != NOOK_NONE) {
-            double longest = volume->longest * largest_scale(&occluder->world_from_mesh);
+            double longest = volume->longest * nook_matrix_longest_axis(&occluder->world_from_mesh);
             needed = nook_volumes_body_resolution(longest, volumes->r_max, resolution);
         }
         if (needed > volume->resolution)

@@ -91,6 +91,14 @@ int nook_matrix_inverse_affine(const nook_matrix *a, nook_matrix *out)
     return 1;
 }
 
+double nook_matrix_longest_axis(const nook_matrix *a)
+{
+    double longest = 0.0;
+    for (int column = 0; column < 3; column++)
+        longest = fmax(longest, nook_vector_length(a->m + column * 4));
+    return longest;
+}
+
 nook_matrix nook_matrix_from_float(const float m[16])
 {
     nook_matrix r;

@@ -29,6 +29,8 @@ nook_matrix nook_matrix_multiply(const nook_matrix *a, const nook_matrix *b);
  */
 int nook_matrix_inverse_affine(const nook_matrix *a, nook_matrix *out);
 double nook_matrix_determinant3(const nook_matrix *a); /**< Of the upper left 3x3. */
+/** Length of the longest of the first three columns: by so much it lengthens an axis at most. */
+double nook_matrix_longest_axis(const nook_matrix *a);
 nook_matrix nook_matrix_from_float(const float m[16]);
 void nook_matrix_to_float(const nook_matrix *a, float out[16]);
 /** a * (p, 1) and a * (v, 0). `out` may be the input. */

@@ -35,13 +35,7 @@ static bool read_options(const nook_app *app, int argc, char **argv, reload_opti
 {
     out->saves = 20;
     const nook_option options[] = {
-        { .name = "saves",
-          .kind = NOOK_OPTION_INT,
-          .target = &out->saves,
-          .placeholder = "N",
-          .lowest = 1,
-          .highest = SAVES_MAX,
-          .help = "of each file; default 20" },
+        nook_option_row_int("saves", &out->saves, 1, SAVES_MAX, "of each file; default 20"),
     };
     const nook_usage usage = {
         .command = "bench reload",

@@ -1,6 +1,7 @@
 #include "engine/core/json.h"
 #include "game/commands/bench_ecs.h"
 #include "game/commands/benches.h"
+#include "game/option_rows.h"
 
 typedef struct bench_settings {
     int32_t entities, repeat;
@@ -46,21 +47,10 @@ int nook_bench_run_ecs(const nook_app *app, int argc, char **argv)
     (void)app;
     bench_settings settings = { .entities = 1000000, .repeat = 7 };
     const nook_option options[] = {
-        { .name = "entities",
-          .kind = NOOK_OPTION_INT,
-          .target = &settings.entities,
-          .placeholder = "N",
-          .help = "how many entities; 1000000",
-          .lowest = 1,
-          .highest = 50000000 },
-        { .name = "repeat",
-          .kind = NOOK_OPTION_INT,
-          .target = &settings.repeat,
-          .placeholder = "N",
-          .help = "rounds to take the median of, after one to warm up; 7",
-          .lowest = 1,
-          .highest = NOOK_BENCH_ROUNDS_MAX },
-        { .name = "json", .kind = NOOK_OPTION_FLAG, .target = &settings.json, .help = "print JSON" },
+        nook_option_row_int("entities", &settings.entities, 1, 50000000, "how many entities; 1000000"),
+        nook_option_row_int("repeat", &settings.repeat, 1, NOOK_BENCH_ROUNDS_MAX,
+                            "rounds to take the median of, after one to warm up; 7"),
+        nook_option_row_json(&settings.json, "print JSON"),
     };
     const nook_usage usage = { .command = "bench ecs",
                                .summary =

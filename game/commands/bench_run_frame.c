@@ -29,21 +29,12 @@ static bool read_options(const nook_app *app, int argc, char **argv, frame_optio
     out->frames = 20;
     out->cpu = out->quick = false;
     const nook_option options[] = {
-        { .name = "frames",
-          .kind = NOOK_OPTION_INT,
-          .target = &out->frames,
-          .placeholder = "N",
-          .lowest = 1,
-          .highest = FRAMES_MAX,
-          .help = "timed of each camera, after two to warm up; default 20" },
-        { .name = "cpu",
-          .kind = NOOK_OPTION_FLAG,
-          .target = &out->cpu,
-          .help = "time that all threads have computed, which a busy machine stretches less; software GL only" },
-        { .name = "quick",
-          .kind = NOOK_OPTION_FLAG,
-          .target = &out->quick,
-          .help = "draws as ./nook play does, not as for measuring" },
+        nook_option_row_int("frames", &out->frames, 1, FRAMES_MAX,
+                            "timed of each camera, after two to warm up; default 20"),
+        nook_option_row_flag(
+            "cpu", &out->cpu,
+            "time that all threads have computed, which a busy machine stretches less; software GL only"),
+        nook_option_row_flag("quick", &out->quick, "draws as ./nook play does, not as for measuring"),
     };
     const nook_usage usage = {
         .command = "bench frame",

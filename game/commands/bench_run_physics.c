@@ -166,24 +166,9 @@ static bool read_options(const nook_app *app, int argc, char **argv, physics_opt
     *out = (physics_options){ .steps = 600, .crates = 16 };
     out->level = nook_option_default_scene(app, out->default_level);
     const nook_option options[] = {
-        { .name = "steps",
-          .kind = NOOK_OPTION_INT,
-          .target = &out->steps,
-          .placeholder = "N",
-          .lowest = 1,
-          .highest = STEPS_MAX,
-          .help = "of each kind; default 600" },
-        { .name = "crates",
-          .kind = NOOK_OPTION_INT,
-          .target = &out->crates,
-          .placeholder = "N",
-          .lowest = 0,
-          .highest = CRATES_MAX,
-          .help = "added to the level's own bodies; default 16" },
-        { .name = "cpu",
-          .kind = NOOK_OPTION_FLAG,
-          .target = &out->cpu,
-          .help = "time that was computed, which a busy machine stretches less" },
+        nook_option_row_int("steps", &out->steps, 1, STEPS_MAX, "of each kind; default 600"),
+        nook_option_row_int("crates", &out->crates, 0, CRATES_MAX, "added to the level's own bodies; default 16"),
+        nook_option_row_flag("cpu", &out->cpu, "time that was computed, which a busy machine stretches less"),
     };
     const nook_usage usage = { .command = "bench physics",
                                .summary = "Times a step of the rigid bodies of a level, default the demo level.",

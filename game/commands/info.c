@@ -4,6 +4,7 @@
 #include "engine/core/json.h"
 #include "game/commands/commands.h"
 #include "game/commands/info_scalar.h"
+#include "game/option_rows.h"
 #include "modules/bake/volume_file.h"
 #include <inttypes.h>
 #include <stdio.h>
@@ -223,7 +224,7 @@ int nook_command_info(const nook_app *app, int argc, char **argv)
     (void)app;
     bool as_json = false;
     const nook_option options[] = {
-        { .name = "json", .kind = NOOK_OPTION_FLAG, .target = &as_json, .help = "print one JSON object" },
+        nook_option_row_json(&as_json, "print one JSON object"),
     };
     const nook_usage usage = { .command = "info",
                                .summary =

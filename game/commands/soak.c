@@ -18,20 +18,8 @@ static bool read_request(const nook_app *app, int argc, char **argv, soak_reques
     window->backend = NOOK_BACKEND_OSMESA;
     window->cache = nook_option_default_cache(app, out->default_cache);
     const nook_option options[] = {
-        { .name = "frames",
-          .kind = NOOK_OPTION_INT,
-          .target = &out->frames,
-          .placeholder = "N",
-          .lowest = 100,
-          .highest = 100000000,
-          .help = "default 100000" },
-        { .name = "seed",
-          .kind = NOOK_OPTION_INT,
-          .target = &out->seed,
-          .placeholder = "N",
-          .lowest = 0,
-          .highest = INT32_MAX,
-          .help = "of what is thrown, and of the physics; default 1" },
+        nook_option_row_int("frames", &out->frames, 100, 100000000, "default 100000"),
+        nook_option_row_int("seed", &out->seed, 0, INT32_MAX, "of what is thrown, and of the physics; default 1"),
         nook_option_row_size(&out->size, "of the pictures in pixels; default 64x36"),
         nook_option_row_settings(&window->settings, "technique and parameters; default: the level's"),
         nook_option_row_backend(&window->backend),

@@ -152,6 +152,15 @@ static void test_matrix_inverse_undoes_mirrored_sheared_and_uneven_matrices(void
     assert_in_range(mirrored, 100, 400);
 }
 
+static void test_longest_axis_is_the_largest_scale_whatever_turns_and_moves(void **state)
+{
+    (void)state;
+    const double translation[3] = { 100, 200, 300 }, turn[4] = { 0, sqrt(0.5), 0, sqrt(0.5) },
+                 scale[3] = { 2, -7, 0.5 };
+    const nook_matrix a = nook_matrix_compose(translation, turn, scale);
+    assert_true(fabs(nook_matrix_longest_axis(&a) - 7.0) < 1e-12);
+}
+
 static void test_matrix_inverse_of_uneven_scale_is_its_reciprocal(void **state)
 {
     (void)state;
@@ -242,6 +251,7 @@ int main(void)
         cmocka_unit_test(test_matrix_multiply_applies_the_second_first),
         cmocka_unit_test(test_matrix_product_acts_like_its_factors_in_turn),
         cmocka_unit_test(test_matrix_inverse_undoes_mirrored_sheared_and_uneven_matrices),
+        cmocka_unit_test(test_longest_axis_is_the_largest_scale_whatever_turns_and_moves),
         cmocka_unit_test(test_matrix_inverse_of_uneven_scale_is_its_reciprocal),
         cmocka_unit_test(test_matrix_inverse_refuses_singular_and_not_finite_matrices),
         cmocka_unit_test(test_matrix_survives_the_way_to_float_and_back),
