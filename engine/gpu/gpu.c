@@ -48,6 +48,7 @@ static void read_limits(nook_gpu *gpu)
     gpu->renderer = (const char *)gl->GetString(GL_RENDERER);
     gpu->version = (const char *)gl->GetString(GL_VERSION);
     gpu->software = nook_renderer_is_software(gpu->renderer);
+    gpu->skips_srgb_decode = has_extension(gl, "GL_EXT_texture_sRGB_decode");
     gpu->cache->max_anisotropy = 1;
     if (has_extension(gl, "GL_EXT_texture_filter_anisotropic") ||
         has_extension(gl, "GL_ARB_texture_filter_anisotropic"))

@@ -67,7 +67,9 @@ struct nook_gpu {
     const nook_gl *gl;
     const char *renderer; /**< GL_RENDERER. */
     const char *version;  /**< GL_VERSION. */
-    bool software;        /**< llvmpipe or softpipe: timer queries lie there (docs/architecture.md). */
+    bool
+        skips_srgb_decode; /**< Samplers can be told to return sRGB texels as they are stored (GL_EXT_texture_sRGB_decode). */
+    bool software;         /**< llvmpipe or softpipe: timer queries lie there (docs/architecture.md). */
     uint32_t max_texture_size, max_texture_3d_size;
     uint32_t max_texture_buffer_size; /**< Texels. */
     struct nook_gpu_cache *cache;

@@ -124,9 +124,11 @@ static void draw_batch(nook_renderer *renderer, const nook_render_scene *s, cons
         const nook_material *material = &s->scene->materials[number];
         if (material->alpha_mode != mode)
             continue;
+        nook_program program = how->choose(renderer, how->user, &s->material_images[number], mode == NOOK_ALPHA_MASK);
+        if (program.handle == 0)
+            continue;
         enable(gl, GL_CULL_FACE, how->cull && !material->double_sided);
-        nook_program_use(renderer->gpu,
-                         how->choose(renderer, how->user, &s->material_images[number], mode == NOOK_ALPHA_MASK));
+        nook_program_use(renderer->gpu, program);
         nook_bind_material(renderer, s, number);
         nook_draw_primitive(renderer, s, primitive, b->first_instance, b->instance_count);
     }

@@ -3,19 +3,35 @@
 
 enum { DEFINES_SIZE = 128 };
 
+/** What a round of the pass draws. */
+typedef struct gbuffer_round {
+    const nook_frame *frame;
+    bool emits; /* materials that do, or those that do not */
+} gbuffer_round;
+
+/** Quick frames keep sRGB as it is stored, from the image to the G-buffer. */
+static bool is_encoded(const nook_renderer *renderer, const nook_frame *frame)
+{
+    return frame->quick && renderer->gpu->skips_srgb_decode;
+}
+
 /** The program that a material's images and the frame ask for, compiled when the first comes that asks so. */
 static nook_program choose_program(nook_renderer *renderer, const void *user, const render_material *material,
                                    bool masked)
 {
-    const nook_frame *frame = user;
+    const gbuffer_round *round = user;
+    const nook_frame *frame = round->frame;
     uint32_t kind = (masked ? GBUFFER_MASKED : 0u) | (frame->quick ? GBUFFER_QUICK : 0u) |
                     (frame->scene->has_tangents ? 0u : GBUFFER_NO_TANGENTS);
     nook_program *program = &renderer->gbuffer_programs[kind][material->image_set];
+    if (material->emits != round->emits)
+        return (nook_program){ 0 };
     if (program->handle != 0)
         return *program;
     char defines[DEFINES_SIZE];
-    snprintf(defines, sizeof defines, "#define IMAGES %uu\n%s%s%s", material->image_set,
+    snprintf(defines, sizeof defines, "#define IMAGES %uu\n%s%s%s%s", material->image_set,
              kind & GBUFFER_MASKED ? "#define MASKED\n" : "", kind & GBUFFER_QUICK ? "#define QUICK\n" : "",
+             is_encoded(renderer, frame) ? "#define ENCODED\n" : "",
              kind & GBUFFER_NO_TANGENTS ? "#define NO_TANGENTS\n" : "");
     if (nook_program_raster(renderer->gpu, "shaders/render/surface.vert.glsl", "shaders/render/gbuffer.frag.glsl",
                             defines, program) != NOOK_OK)
@@ -23,19 +39,31 @@ static nook_program choose_program(nook_renderer *renderer, const void *user, co
     return *program;
 }
 
+static void draw_round(nook_renderer *renderer, const nook_frame *frame, bool emits)
+{
+    const render_targets *targets = &renderer->targets;
+    const gbuffer_round round = { frame, emits };
+    nook_raster_begin(
+        renderer->gpu, emits ? targets->gbuffer_target : targets->dark_gbuffer_target,
+        (raster_state){
+            .depth_compare = GL_GREATER, .depth_write = true, .cull = true, .srgb = !is_encoded(renderer, frame) });
+    nook_draw_solid(renderer, frame->scene, &renderer->visible, choose_program, &round, frame->cull_back_faces);
+}
+
+/* Emission is 0 nearly everywhere, and writing it costs a software driver a fifteenth of a picture: only what emits does, after all
+   else, so that nothing in front of it would have to write 0 over it. */
 void nook_pass_gbuffer(nook_renderer *renderer, const nook_frame *frame)
 {
     const nook_gl *gl = renderer->gpu->gl;
     const nook_framebuffer target = renderer->targets.gbuffer_target;
     const float zero[4] = { 0 };
-    nook_raster_begin(renderer->gpu, target,
-                      (raster_state){ .depth_compare = GL_GREATER, .depth_write = true, .cull = true, .srgb = true });
     for (GLint i = 0; i < 5; i++)
         gl->ClearNamedFramebufferfv(target.id, GL_COLOR, i, zero);
     gl->ClearNamedFramebufferfv(target.id, GL_DEPTH, 0, zero); /* reversed-Z: infinitely far */
     for (GLuint i = 0; i < MATERIAL_IMAGES && frame->quick; i++)
         gl->BindSampler(i, renderer->quick_sampler);
-    nook_draw_solid(renderer, frame->scene, &renderer->visible, choose_program, frame, frame->cull_back_faces);
+    draw_round(renderer, frame, false);
+    draw_round(renderer, frame, true);
     for (GLuint i = 0; i < MATERIAL_IMAGES; i++)
         gl->BindSampler(i, 0);
     nook_raster_end(renderer->gpu);

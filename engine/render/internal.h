@@ -80,6 +80,7 @@ enum {
 typedef struct render_material {
     nook_texture images[MATERIAL_IMAGES]; /* by UNIT_*_IMAGE */
     uint32_t image_set;                   /* bits: 1 << UNIT_*_IMAGE of those it has */
+    bool emits;
 } render_material;
 
 /** What deformables need on the GPU; zero in a scene without them. Their vertices stand one after the other in these. */
@@ -150,7 +151,8 @@ typedef struct draw_set {
 typedef struct render_targets {
     nook_gbuffer gbuffer;
     nook_texture light, image;
-    nook_framebuffer gbuffer_target, light_target, blended_target, image_target;
+    nook_framebuffer gbuffer_target, dark_gbuffer_target; /* dark: without emission */
+    nook_framebuffer light_target, blended_target, image_target;
 } render_targets;
 
 /** A box in the sun's axes: x, y across, z away from the sun. In double: it is not relative to the camera, which moves. */
@@ -208,6 +210,7 @@ struct nook_renderer {
     nook_program shadow_program, shadow_masked_program, gbuffer_program, gbuffer_masked_program; /* for any material */
     nook_program gbuffer_programs[GBUFFER_KINDS][IMAGE_SETS]; /* id 0 until one is drawn with */
     uint32_t quick_sampler;                                   /* of material images in a quick frame */
+    uint32_t nearest_sampler;                                 /* of the caller's visibility */
     nook_program lighting_program, lighting_image_program, blended_program, view_program;
     draw_set visible, casters;
     grow_list blended; /* blended_draw */
@@ -260,7 +263,7 @@ void nook_bind_material(nook_renderer *renderer, const nook_render_scene *scene,
 /** Draws instances of one primitive; its material is bound. */
 void nook_draw_primitive(nook_renderer *renderer, const nook_render_scene *scene, uint32_t primitive,
                          uint32_t first_instance, uint32_t instance_count);
-/** @param user  that of nook_draw_solid @return what a pass draws a material with; masked: with holes */
+/** @param user  that of nook_draw_solid @return what a pass draws a material with, handle 0: not at all; masked: with holes */
 typedef nook_program (*program_choice)(nook_renderer *renderer, const void *user, const render_material *material,
                                        bool masked);
 /** Draws all primitives of a set but the blended ones, those with holes last. @param cull  back faces of single-sided ones */

@@ -18,6 +18,13 @@ static void bind_inputs(nook_renderer *renderer, nook_texture visibility)
     nook_bind_texture(gpu, UNIT_EMISSIVE, g->emissive);
     nook_bind_texture(gpu, UNIT_DEPTH, g->depth);
     nook_bind_texture(gpu, UNIT_VISIBILITY, visibility.id != 0 ? visibility : renderer->white);
+    gpu->gl->BindSampler(UNIT_VISIBILITY, renderer->nearest_sampler); /* it is the caller's, with any filter */
+}
+
+static void draw(nook_renderer *renderer, nook_program program)
+{
+    nook_draw_fullscreen(renderer, program);
+    renderer->gpu->gl->BindSampler(UNIT_VISIBILITY, 0);
 }
 
 /** Whether the lights' calls can be written out one by one. */
@@ -56,7 +63,7 @@ void nook_pass_lighting(nook_renderer *renderer, const nook_frame *frame, nook_t
     nook_raster_begin(renderer->gpu, to_image ? targets->image_target : targets->light_target,
                       (raster_state){ .part = part });
     bind_inputs(renderer, visibility);
-    nook_draw_fullscreen(renderer, program);
+    draw(renderer, program);
     nook_raster_end(renderer->gpu);
 }
 
@@ -67,6 +74,6 @@ void nook_pass_view(nook_renderer *renderer, nook_texture visibility, nook_view 
     nook_bind_texture(renderer->gpu, UNIT_LIGHT, renderer->targets.light);
     nook_program_use(renderer->gpu, renderer->view_program);
     nook_uniform_int(renderer->gpu, LOCATION_DRAW, &(const int32_t){ (int32_t)view }, 1);
-    nook_draw_fullscreen(renderer, renderer->view_program);
+    draw(renderer, renderer->view_program);
     nook_raster_end(renderer->gpu);
 }

@@ -51,7 +51,12 @@ static nook_result create_programs(nook_renderer *r)
     return NOOK_OK;
 }
 
-/** Bilinear in the nearest level: on software GL half of trilinear, and a quarter of anisotropic. */
+enum { TEXTURE_SRGB_DECODE = 0x8A48, SKIP_DECODE = 0x8A4A /* GL_EXT_texture_sRGB_decode, in no header of core GL */ };
+
+/**
+ * Bilinear in the nearest level: on software GL half of trilinear, and a quarter of anisotropic. Colours stay as they are encoded: they
+ * go into the G-buffer so, and a software driver decodes each of four texels, filters in float and encodes again.
+ */
 static void create_quick_sampler(nook_renderer *r)
 {
     const nook_gl *gl = r->gpu->gl;
@@ -60,6 +65,16 @@ static void create_quick_sampler(nook_renderer *r)
     gl->SamplerParameteri(r->quick_sampler, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     gl->SamplerParameteri(r->quick_sampler, GL_TEXTURE_WRAP_S, GL_REPEAT);
     gl->SamplerParameteri(r->quick_sampler, GL_TEXTURE_WRAP_T, GL_REPEAT);
+    if (r->gpu->skips_srgb_decode)
+        gl->SamplerParameteri(r->quick_sampler, TEXTURE_SRGB_DECODE, SKIP_DECODE);
+}
+
+static void create_nearest_sampler(nook_renderer *r)
+{
+    const nook_gl *gl = r->gpu->gl;
+    gl->CreateSamplers(1, &r->nearest_sampler);
+    gl->SamplerParameteri(r->nearest_sampler, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl->SamplerParameteri(r->nearest_sampler, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
 }
 
 static nook_result create_fixed(nook_renderer *r)
@@ -77,6 +92,7 @@ static nook_result create_fixed(nook_renderer *r)
         result = nook_buffer_create(r->gpu, NULL, sizeof(lights_block), &r->light_uniforms);
     if (result == NOOK_OK) {
         create_quick_sampler(r);
+        create_nearest_sampler(r);
         r->vertex_array = nook_vertex_array_create(r->gpu);
         r->gpu->gl->CreateVertexArrays(1, &r->empty_vertex_array);
     }
@@ -119,6 +135,7 @@ void nook_renderer_destroy(nook_renderer *r)
     gl->DeleteVertexArrays(1, &r->vertex_array);
     gl->DeleteVertexArrays(1, &r->empty_vertex_array);
     gl->DeleteSamplers(1, &r->quick_sampler);
+    gl->DeleteSamplers(1, &r->nearest_sampler);
     nook_texture_destroy(r->gpu, &r->shadow_map);
     nook_texture_destroy(r->gpu, &r->shadow_base);
     nook_texture_destroy(r->gpu, &r->white);

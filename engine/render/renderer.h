@@ -75,8 +75,8 @@ typedef struct nook_frame {
     nook_camera camera;
     const nook_lights *lights;
     bool
-        quick; /**< For play, not for measuring: material images in their nearest mip level and not anisotropic, and the
-                     triangles' normals from the positions of neighbouring pixels, right to about 1e-4. */
+        quick; /**< For play, not for measuring: material images in their nearest mip level, not anisotropic, filtered and
+                     multiplied as sRGB stores colours, and the triangles' normals from the positions of neighbouring pixels, right to about 1e-4. */
     bool
         cull_back_faces; /**< true: single-sided materials are not seen from behind, as glTF has it. false: every surface
                                is seen from both sides, as rays, volumes and shadows see it. */

@@ -147,6 +147,11 @@ static nook_result upload_material_images(nook_render_scene *s, const nook_mater
     return NOOK_OK;
 }
 
+static bool emits(const nook_material *material)
+{
+    return material->emissive[0] != 0.0f || material->emissive[1] != 0.0f || material->emissive[2] != 0.0f;
+}
+
 static uint32_t image_set(const render_material *material)
 {
     uint32_t set = 0;
@@ -180,6 +185,7 @@ static nook_result upload_materials(nook_render_scene *s)
     for (uint32_t i = 0; i < scene->material_count && result == NOOK_OK; i++) {
         result = upload_material_images(s, &scene->materials[i], &s->material_images[i]);
         s->material_images[i].image_set = image_set(&s->material_images[i]);
+        s->material_images[i].emits = emits(&scene->materials[i]);
         blocks[i] = material_numbers(&scene->materials[i], s->material_images[i].image_set);
     }
     if (result == NOOK_OK)

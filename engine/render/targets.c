@@ -32,6 +32,9 @@ static nook_result create_framebuffers(nook_gpu *gpu, render_targets *t)
     nook_result result =
         nook_framebuffer_create(gpu, colours, (uint32_t)NOOK_COUNT(colours), t->gbuffer.depth, &t->gbuffer_target);
     if (result == NOOK_OK)
+        result = nook_framebuffer_create(gpu, colours, (uint32_t)NOOK_COUNT(colours) - 1, t->gbuffer.depth,
+                                         &t->dark_gbuffer_target);
+    if (result == NOOK_OK)
         result = nook_framebuffer_create(gpu, &t->light, 1, none, &t->light_target);
     if (result == NOOK_OK)
         result = nook_framebuffer_create(gpu, &t->light, 1, t->gbuffer.depth, &t->blended_target);
@@ -57,6 +60,7 @@ nook_result nook_targets_create(nook_gpu *gpu, uint32_t width, uint32_t height, 
 void nook_targets_destroy(nook_gpu *gpu, render_targets *t)
 {
     nook_framebuffer_destroy(gpu, &t->gbuffer_target);
+    nook_framebuffer_destroy(gpu, &t->dark_gbuffer_target);
     nook_framebuffer_destroy(gpu, &t->light_target);
     nook_framebuffer_destroy(gpu, &t->blended_target);
     nook_framebuffer_destroy(gpu, &t->image_target);

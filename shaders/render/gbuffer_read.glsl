@@ -1,4 +1,5 @@
-// The G-buffer as the full-screen passes read it. Needs frame.glsl, shade.glsl. Bindings: textures 6 - 12.
+// The G-buffer as the full-screen passes read it. Needs frame.glsl, shade.glsl. Bindings: textures 6 - 12, sampled nearest: a software
+// driver takes longer for texelFetch, whose level it works out for each pixel.
 #pragma once
 #include "nook/octahedral.glsl"
 
@@ -10,21 +11,27 @@ layout(binding = 10) uniform sampler2D emissive_texture;
 layout(binding = 11) uniform sampler2D depth_texture;
 layout(binding = 12) uniform sampler2D visibility_texture; // of the frame's size, or one texel
 
-float read_visibility(ivec2 pixel)
+// Of the pixel that is being drawn.
+vec4 read_pixel(sampler2D from)
 {
-    return texelFetch(visibility_texture, min(pixel, textureSize(visibility_texture, 0) - 1), 0).r;
+    return textureLod(from, gl_FragCoord.xy / frame.size, 0.0);
 }
 
-Lit read_surface(ivec2 pixel, vec3 ray, float depth)
+float read_visibility()
 {
-    vec4 material = texelFetch(material_texture, pixel, 0);
+    return read_pixel(visibility_texture).r;
+}
+
+Lit read_surface(vec3 ray, float depth)
+{
+    vec4 material = read_pixel(material_texture);
     Lit s;
     s.relative = ray * view_distance(depth);
-    s.normal = nook_octahedral_decode(texelFetch(normal_texture, pixel, 0).rg);
-    s.geometric_normal = nook_octahedral_decode(texelFetch(geometric_normal_texture, pixel, 0).rg);
-    s.base_colour = texelFetch(base_colour_texture, pixel, 0).rgb;
+    s.normal = nook_octahedral_decode(read_pixel(normal_texture).rg);
+    s.geometric_normal = nook_octahedral_decode(read_pixel(geometric_normal_texture).rg);
+    s.base_colour = read_pixel(base_colour_texture).rgb;
     s.metallic = material.r;
     s.roughness = material.g;
-    s.visibility = read_visibility(pixel) * material.b;
+    s.visibility = read_visibility() * material.b;
     return s;
 }

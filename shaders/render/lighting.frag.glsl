@@ -10,16 +10,15 @@ layout(location = 0) out vec4 result;
 
 void main()
 {
-    ivec2 pixel = ivec2(gl_FragCoord.xy);
     vec3 ray = relative_ray(gl_FragCoord.xy);
-    float depth = texelFetch(depth_texture, pixel, 0).r;
+    float depth = read_pixel(depth_texture).r;
     vec3 radiance;
     if (depth == 0.0) {
         radiance = sky_radiance(normalize(ray));
     } else {
-        Lit s = read_surface(pixel, ray, depth);
-        bool unlit = texelFetch(material_texture, pixel, 0).a > 0.5;
-        radiance = texelFetch(emissive_texture, pixel, 0).rgb + (unlit ? s.base_colour : shade(s));
+        Lit s = read_surface(ray, depth);
+        bool unlit = read_pixel(material_texture).a > 0.5;
+        radiance = read_pixel(emissive_texture).rgb + (unlit ? s.base_colour : shade(s));
     }
 #ifdef TO_IMAGE
     result = vec4(srgb_encode(tone_map(radiance)), 1.0);

@@ -1,5 +1,5 @@
 // The material of a draw. Bindings: uniform 2 the material, textures 0 - 4, location 0 the draw. Defines: IMAGES, the
-// MATERIAL_*_IMAGE that it has, where the program is compiled for them; what stands in an if costs a software driver in any case.
+// MATERIAL_*_IMAGE that it has, where the program is compiled for them; ENCODED, sRGB images come as they are stored; what stands in an if costs a software driver in any case.
 #pragma once
 struct Material {
     vec4 base_colour;
@@ -35,9 +35,14 @@ bool has_image(uint image)
 #endif
 }
 
+// colour: of the vertices; with ENCODED that times the material's, and all colours are sRGB
 vec4 material_base_colour(vec2 uv, vec4 colour)
 {
+#ifdef ENCODED
+    vec4 result = colour;
+#else
     vec4 result = drawn.base_colour * colour;
+#endif
     if (has_image(MATERIAL_BASE_COLOUR_IMAGE))
         result *= texture(base_colour_image, uv);
     return result;

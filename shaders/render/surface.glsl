@@ -1,9 +1,10 @@
 // A surface point as the fragment shaders of geometry passes see it: material and both normals.
 // Bindings: those of material.glsl, storage 2 triangle normals. Defines: IMAGES of material.glsl; NO_TANGENTS, the vertices have
-// none; QUICK, the triangle's normal is that of the neighbouring pixels' positions: right to about 1e-4 instead of exact.
+// none; QUICK, the triangle's normal is that of the neighbouring pixels' positions: right to about 1e-4 instead of exact; ENCODED of material.glsl, the base colour is sRGB.
 #pragma once
 #include "render/frame.glsl"
 #include "render/material.glsl"
+#include "render/tone.glsl"
 
 layout(location = 0) in vec3 surface_position_view;
 layout(location = 1) in vec3 surface_normal_world;
@@ -112,7 +113,11 @@ Surface surface_read()
         s.occlusion = 1.0 + drawn.occlusion_strength * (texture(occlusion_image, surface_uv).r - 1.0);
     s.emissive = drawn.emissive_cutoff.rgb;
     if (has_image(MATERIAL_EMISSIVE_IMAGE))
+#ifdef ENCODED
+        s.emissive *= srgb_decode(texture(emissive_image, surface_uv).rgb);
+#else
         s.emissive *= texture(emissive_image, surface_uv).rgb;
+#endif
     s.unlit = (drawn.flags.x & MATERIAL_UNLIT) != 0u;
     return s;
 }

@@ -1,6 +1,8 @@
 #version 450
 // Vertices of the G-buffer and of blended surfaces. Attributes: docs/rendering.md. Defines: those of surface.glsl.
 #include "render/frame.glsl"
+#include "render/material.glsl"
+#include "render/tone.glsl"
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
@@ -35,7 +37,12 @@ void main()
     surface_tangent_world.w = tangent.w * world_normal_from_mesh_0.w;
 #endif
     surface_uv = uv;
+#ifdef ENCODED
+    vec4 product = drawn.base_colour * colour;
+    surface_colour = vec4(srgb_encode(clamp(product.rgb, 0.0, 1.0)), product.a);
+#else
     surface_colour = colour;
+#endif
 #ifndef QUICK
     surface_world_normal_from_mesh = world_normal_from_mesh;
 #endif

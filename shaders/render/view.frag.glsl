@@ -32,9 +32,9 @@ vec3 shadow_map_view(vec2 pixel)
     return vec3(1.0 - texelFetch(shadow_map, min(ivec2(place * vec2(size)), size - 1), 0).r);
 }
 
-vec3 buffer_view(ivec2 pixel, float depth)
+vec3 buffer_view(float depth)
 {
-    Lit s = read_surface(pixel, relative_ray(gl_FragCoord.xy), depth);
+    Lit s = read_surface(relative_ray(gl_FragCoord.xy), depth);
     switch (view) {
     case VIEW_BASE_COLOUR:
         return srgb_encode(s.base_colour);
@@ -50,31 +50,30 @@ vec3 buffer_view(ivec2 pixel, float depth)
     case VIEW_ROUGHNESS:
         return vec3(s.roughness);
     case VIEW_EMISSIVE:
-        return srgb_encode(clamp(texelFetch(emissive_texture, pixel, 0).rgb, 0.0, 1.0));
+        return srgb_encode(clamp(read_pixel(emissive_texture).rgb, 0.0, 1.0));
     case VIEW_VISIBILITY:
-        return vec3(read_visibility(pixel));
+        return vec3(read_visibility());
     case VIEW_SHADOW:
         return vec3(sun_arrives(s));
     case VIEW_OCCLUSION_MAP:
-        return vec3(texelFetch(material_texture, pixel, 0).b);
+        return vec3(read_pixel(material_texture).b);
     }
     return vec3(0.0);
 }
 
 void main()
 {
-    ivec2 pixel = ivec2(gl_FragCoord.xy);
-    float depth = texelFetch(depth_texture, pixel, 0).r;
+    float depth = read_pixel(depth_texture).r;
     vec3 colour;
     if (view == VIEW_LIT)
-        colour = srgb_encode(tone_map(texelFetch(light_texture, pixel, 0).rgb));
+        colour = srgb_encode(tone_map(read_pixel(light_texture).rgb));
     else if (view == VIEW_LIGHT)
-        colour = light_view(texelFetch(light_texture, pixel, 0).rgb);
+        colour = light_view(read_pixel(light_texture).rgb);
     else if (view == VIEW_SHADOW_MAP)
         colour = shadow_map_view(gl_FragCoord.xy);
     else if (depth == 0.0)
         colour = vec3(view == VIEW_VISIBILITY ? 1.0 : 0.0);
     else
-        colour = buffer_view(pixel, depth);
+        colour = buffer_view(depth);
     image = vec4(colour, 1.0);
 }

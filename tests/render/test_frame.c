@@ -71,6 +71,32 @@ static void test_the_nearer_of_two_surfaces_is_seen(void **state)
     test_picture_destroy(&picture);
 }
 
+/** A lamp and a board of one size, one behind the other. @return the emission in the picture's middle */
+static double emission_seen(void **state, bool lamp_in_front, bool masked)
+{
+    test_scene scene;
+    test_picture picture;
+    test_scene_init(&scene);
+    uint32_t lamp = test_scene_add_facing(&scene, 4.0f, lamp_in_front ? -2.0f : -3.0f);
+    uint32_t board = test_scene_add_facing(&scene, 4.0f, lamp_in_front ? -3.0f : -2.0f);
+    memcpy(scene.materials[lamp].emissive, (float[3]){ 0.5f, 0.5f, 0.5f }, 12);
+    if (masked)
+        scene.materials[board].alpha_mode = NOOK_ALPHA_MASK;
+    test_picture_create(&picture, test_gpu_of(state), &scene, 8, 8);
+    test_picture_render(&picture, NOOK_VIEW_EMISSIVE);
+    double seen = test_picture_at(&picture, 4, 4)[0];
+    test_picture_destroy(&picture);
+    return seen;
+}
+
+static void test_emission_is_seen_where_what_emits_is_in_front_and_nowhere_else(void **state)
+{
+    for (int masked = 0; masked < 2; masked++) {
+        assert_true(emission_seen(state, true, masked) > 180.0);
+        assert_true(emission_seen(state, false, masked) == 0.0);
+    }
+}
+
 static void test_back_faces_are_seen_unless_culled_and_single_sided(void **state)
 {
     for (int mirrored = 0; mirrored < 2; mirrored++) {
@@ -270,6 +296,7 @@ int main(void)
         cmocka_unit_test(test_background_has_depth_zero),
         cmocka_unit_test(test_the_top_of_the_world_is_the_top_of_the_picture),
         cmocka_unit_test(test_the_nearer_of_two_surfaces_is_seen),
+        cmocka_unit_test(test_emission_is_seen_where_what_emits_is_in_front_and_nowhere_else),
         cmocka_unit_test(test_back_faces_are_seen_unless_culled_and_single_sided),
         cmocka_unit_test(test_a_million_metres_from_the_origin_is_the_same_picture),
         cmocka_unit_test(test_draws_of_one_mesh_become_instances_in_their_places),

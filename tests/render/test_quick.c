@@ -89,11 +89,57 @@ static void test_quick_frame_shows_the_materials_and_leaves_the_exact_one_as_it_
     test_picture_destroy(&picture);
 }
 
+/** A facing quad whose colours are products of all that a material can have. */
+static void make_product(void **state, test_scene *scene, test_picture *picture, const uint8_t *image)
+{
+    test_scene_init(scene);
+    uint32_t quad = test_scene_add_facing(scene, 4.0f, -2.0f);
+    nook_material *material = &scene->materials[quad];
+    scene->images[0] = (nook_image){ .width = 2, .height = 2, .pixels = (uint8_t *)(uintptr_t)image };
+    scene->scene.image_count = 1;
+    material->base_colour_image = material->emissive_image = 0;
+    memcpy(material->base_colour, (float[4]){ 0.8f, 0.5f, 1.0f, 1.0f }, 16);
+    memcpy(material->emissive, (float[3]){ 0.9f, 0.4f, 0.7f }, 12);
+    for (uint32_t i = 0; i < scene->scene.vertex_count; i++)
+        memcpy(scene->scene.vertices[i].colour, (float[4]){ 0.9f, 0.7f, 0.6f, 1.0f }, 16);
+    test_picture_create(picture, test_gpu_of(state), scene, 8, 8);
+}
+
+static void test_quick_frame_has_colours_and_emission_within_five_of_255_of_the_exact_one(void **state)
+{
+    static const nook_view views[2] = { NOOK_VIEW_BASE_COLOUR, NOOK_VIEW_EMISSIVE };
+    uint8_t image[2 * 2 * 4];
+    for (int level = 40; level < 256; level += 30) {
+        test_scene scene;
+        test_picture picture;
+        for (int i = 0; i < 16; i++)
+            image[i] =
+                i % 4 == 3 ? 255 : (uint8_t)(level + i % 4); /* one colour: what a filter does is not asked here */
+        make_product(state, &scene, &picture, image);
+        for (int k = 0; k < 2; k++) {
+            uint8_t exact[3];
+            picture.frame.quick = false;
+            test_picture_render(&picture, views[k]);
+            memcpy(exact, test_picture_at(&picture, 4, 4), 3);
+            picture.frame.quick = true;
+            test_picture_render(&picture, views[k]);
+            for (int c = 0; c < 3; c++) {
+                int off = abs(test_picture_at(&picture, 4, 4)[c] - exact[c]);
+                if (off > 5) /* sRGB is nearly a power, and the product of powers the power of the product */
+                    fail_msg("%s of %d, channel %d: %d, exact %d", nook_view_name(views[k]), level, c,
+                             test_picture_at(&picture, 4, 4)[c], exact[c]);
+            }
+        }
+        test_picture_destroy(&picture);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_quick_frame_has_the_depth_and_nearly_the_normals_of_an_exact_one),
         cmocka_unit_test(test_quick_frame_shows_the_materials_and_leaves_the_exact_one_as_it_was),
+        cmocka_unit_test(test_quick_frame_has_colours_and_emission_within_five_of_255_of_the_exact_one),
     };
     return cmocka_run_group_tests(tests, test_gpu_setup, test_gpu_teardown);
 }
