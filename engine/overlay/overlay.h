@@ -52,7 +52,7 @@ void nook_overlay_end(nook_overlay *overlay);
  */
 nook_result nook_overlay_draw(nook_overlay *overlay, nook_framebuffer target);
 
-/** A panel. */
+/** A panel. It is kept within the target; what is not bare is no larger than that, and scrolls. */
 typedef struct nook_overlay_panel {
     const char *title; /**< "##name" for none to be shown. */
     double x, y;       /**< Where it first appears, pixels; below 0: from the right, from the bottom. */
@@ -129,6 +129,11 @@ void nook_overlay_rectangle(nook_overlay *overlay, const double low[2], const do
 double nook_overlay_label(nook_overlay *overlay, const double at[2], nook_overlay_colour colour, const char *text);
 /** Size of text as a label draws it, pixels. */
 void nook_overlay_label_size(nook_overlay *overlay, const char *text, double out_size[2]);
+/**
+ * How much of a text one line holds: its longest start that ends at a space and is no wider than a number of pixels as a label; its
+ * first word where that is wider. @return bytes, without the space
+ */
+size_t nook_overlay_line_length(nook_overlay *overlay, const char *text, double width);
 double nook_overlay_letter_height(nook_overlay *overlay); /**< Pixels. */
 
 #ifdef __cplusplus

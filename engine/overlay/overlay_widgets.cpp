@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <imgui/imgui.h>
+#include <imgui/imgui_internal.h>
 
 enum { FORMAT_SIZE = 64 };
 
@@ -21,6 +22,28 @@ static ImVec2 place_of(const nook_overlay_panel *panel, ImVec2 *pivot)
     return ImVec2((float)panel->x + (from_right ? size.x : 0.0f), (float)panel->y + (from_bottom ? size.y : 0.0f));
 }
 
+/*
+ * What would reach out of the target, because that has become smaller or what is in the panel more, comes back into it. By the size
+ * that it had in the last frame: one that was not seen yet has none.
+ */
+static void place_panel(const nook_overlay_panel *panel)
+{
+    ImVec2 pivot;
+    const ImVec2 target = ImGui::GetIO().DisplaySize, place = place_of(panel, &pivot);
+    const ImGuiWindow *known = ImGui::FindWindowByName(panel->title);
+    if (known && known->WasActive && !known->Hidden) {
+        const ImVec2 size = known->Size;
+        const ImVec2 at = panel->bare ? ImVec2(place.x - pivot.x * size.x, place.y - pivot.y * size.y) : known->Pos;
+        const ImVec2 kept(std::fmax(std::fmin(at.x, target.x - size.x), 0.0f),
+                          std::fmax(std::fmin(at.y, target.y - size.y), 0.0f));
+        if (kept.x != at.x || kept.y != at.y) {
+            ImGui::SetNextWindowPos(kept, ImGuiCond_Always);
+            return;
+        }
+    }
+    ImGui::SetNextWindowPos(place, panel->bare ? ImGuiCond_Always : ImGuiCond_FirstUseEver, pivot);
+}
+
 bool nook_overlay_panel_begin(nook_overlay *overlay, const nook_overlay_panel *panel)
 {
     (void)overlay;
@@ -34,12 +57,11 @@ bool nook_overlay_panel_begin(nook_overlay *overlay, const nook_overlay_panel *p
     if (panel->width <= 0.0)
         flags |= ImGuiWindowFlags_AlwaysAutoResize;
     const float letter = ImGui::GetFontSize();
-    ImVec2 pivot;
-    const ImVec2 place = place_of(panel, &pivot);
-    ImGui::SetNextWindowPos(place, panel->bare ? ImGuiCond_Always : ImGuiCond_FirstUseEver, pivot);
+    place_panel(panel);
     if (panel->width > 0.0)
         ImGui::SetNextWindowSize(ImVec2((float)panel->width * letter, (float)panel->height * letter),
                                  ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowSizeConstraints(ImVec2(0.0f, 0.0f), ImGui::GetIO().DisplaySize);
     return ImGui::Begin(panel->title, panel->open, flags);
 }
 
@@ -284,6 +306,23 @@ double nook_overlay_label(nook_overlay *overlay, const double at[2], nook_overla
     ImGui::GetBackgroundDrawList()->AddText(ImVec2((float)(at[0] + margin), (float)(at[1] + margin * 0.5)),
                                             packed(colour), text);
     return size[1];
+}
+
+size_t nook_overlay_line_length(nook_overlay *overlay, const char *text, double width)
+{
+    (void)overlay;
+    const float room = (float)width - 0.5f * ImGui::GetFontSize(); /* a label's margins */
+    size_t best = 0;
+    for (size_t at = 0;; at++) {
+        if (text[at] != ' ' && text[at] != '\0')
+            continue;
+        if (best > 0 && ImGui::CalcTextSize(text, text + at).x > room)
+            break;
+        best = at;
+        if (text[at] == '\0')
+            break;
+    }
+    return best;
 }
 
 double nook_overlay_letter_height(nook_overlay *overlay)

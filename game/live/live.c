@@ -127,9 +127,20 @@ void nook_live_suspend(nook_live *live)
     live->stale = true;
 }
 
+uint32_t live_shown_width(const nook_live *live)
+{
+    return live->width ? live->width : live->stage->width;
+}
+
+uint32_t live_shown_height(const nook_live *live)
+{
+    return live->height ? live->height : live->stage->height;
+}
+
 nook_overlay *nook_live_overlay(nook_live *live)
 {
     live_overlay_begin(live);
+    live_borders_show(live); /* below what the host puts there */
     live->overlay_used = true;
     return live->overlay;
 }

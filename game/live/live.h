@@ -44,6 +44,11 @@ void nook_live_input(nook_live *live, const nook_input *input, bool pointer, noo
 bool nook_live_wants_pointer(const nook_live *live);
 /** For the host's own widgets of this frame; between input and draw. */
 nook_overlay *nook_live_overlay(nook_live *live);
+/**
+ * How far down the names of the views reach among the window's leftmost pixels, where hosts write: 0 when none is there. After
+ * nook_live_overlay. @param width  pixels
+ */
+double nook_live_names_bottom(nook_live *live, double width);
 
 /**
  * Draws the views of a frame into the stage's image: G-buffer once, each view's AO and light. While the camera is frozen it draws

@@ -11,7 +11,8 @@ enum {
     LIVE_TICKS = 240,
     LIVE_COLOURS = 256,
     LIVE_TECHNIQUES = 16,
-    LIVE_LATENCY = 4
+    LIVE_LATENCY = 4,
+    LIVE_PANEL_WIDTH = 26 /**< Of the views' panel, letters' heights. */
 };
 
 typedef struct live_message {
@@ -107,6 +108,7 @@ struct nook_live {
     bool times_shown;                 /**< In the last frame: passes are timed. */
     bool pointer;                     /**< The mouse is ours too in this frame. */
     bool overlay_begun, overlay_used; /**< In this frame. */
+    bool borders_shown;               /**< In this frame of the overlay. */
     uint32_t hovered, held;           /**< Borders; NOOK_LIVE_SPLITS_MAX: none. */
     double mouse[2];                  /**< Parts of the window from its top left. */
     uint32_t width, height;           /**< Of the window, pixels; 0 before the first input. */
@@ -134,6 +136,11 @@ struct nook_live {
     live_truth truth;
     live_times times;
 };
+
+/* live.c */
+/** Of the window, else of the picture: pixels. */
+uint32_t live_shown_width(const nook_live *live);
+uint32_t live_shown_height(const nook_live *live);
 
 /* live_modes.c */
 nook_result live_targets_create(nook_live *live);
@@ -208,6 +215,14 @@ void live_note(nook_live *live, const char *format, ...)
     __attribute__((format(printf, 2, 3)))
 #endif
     ;
+
+/** Once a frame. */
+void live_borders_show(nook_live *live);
+
+/* live_names.c */
+/** Whether views have names over them. */
+bool live_names_shown(const nook_live *live);
+void live_names_show(nook_live *live);
 
 /* live_panels.c */
 /** @param times  with a section of them: there is no room for a panel of its own */

@@ -1,6 +1,7 @@
-/* What lies over the picture beside the panels: borders, names of the views, messages, help. */
+/* What lies over the picture beside panels and names: borders, messages, help, notes. */
 #include "engine/core/clock.h"
 #include "game/live/live_internal.h"
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -10,6 +11,8 @@ static const nook_overlay_colour red = { 255, 110, 100, 255 }, accent = { 255, 1
 static const nook_overlay_colour border_colour = { 20, 20, 20, 255 };
 static const double note_ms = 4000.0;
 static const double message_width = 42.0, help_column = 5.0, both_panels = 54.0; /* letters' heights */
+static const double panels_and_help = 72.0; /* the same: with a list of the host's */
+static const double margin = 8.0;           /* pixels at scale 1: of what lies in a corner */
 
 void live_note(nook_live *live, const char *format, ...)
 {
@@ -24,19 +27,24 @@ void live_overlay_begin(nook_live *live)
 {
     if (live->overlay_begun)
         return;
-    const nook_overlay_frame frame = { .width = live->width ? live->width : live->stage->width,
-                                       .height = live->height ? live->height : live->stage->height,
+    const nook_overlay_frame frame = { .width = live_shown_width(live),
+                                       .height = live_shown_height(live),
                                        .scale = live->scale,
                                        .seconds = live->seconds,
                                        .input = live->pointer ? &live->input : NULL };
     live->taken = nook_overlay_begin(live->overlay, &frame);
     live->overlay_begun = true;
+    live->borders_shown = false;
 }
 
-/* ---- Borders and names -------------------------------------------------------------------------------------------- */
+/* ---- Borders ------------------------------------------------------------------------------------------------------ */
 
-static void show_borders(nook_live *live, double width, double height)
+void live_borders_show(nook_live *live)
 {
+    const double width = live_shown_width(live), height = live_shown_height(live);
+    if (live->borders_shown)
+        return;
+    live->borders_shown = true;
     nook_live_border borders[NOOK_LIVE_SPLITS_MAX];
     uint32_t count = nook_live_views_borders(&live->views, borders);
     for (uint32_t i = 0; i < count; i++) {
@@ -47,37 +55,6 @@ static void show_borders(nook_live *live, double width, double height)
         const double(*line)[2] = b->upright ? upright : level;
         nook_overlay_line(live->overlay, line[0], line[1], lit ? accent : border_colour,
                           (lit ? 4.0 : 2.0) * live->scale);
-    }
-}
-
-/* "volume, error: RMSE 0.0213, bias +0.0040" */
-static void describe_view(const nook_live *live, uint32_t view, char *out, size_t capacity)
-{
-    const nook_live_view *v = &live->views.views[view];
-    const live_error *error = &live->truth.errors[view];
-    const char *mode = nook_live_mode_name(v->mode), *technique = v->open ? "none" : v->setting;
-    if (!nook_live_mode_occludes(v->mode)) {
-        snprintf(out, capacity, "%s", mode);
-        return;
-    }
-    int used = snprintf(out, capacity, "%.*s, %s", (int)strcspn(technique, " "), technique, mode);
-    if (error->pixels > 0 && used > 0 && (size_t)used < capacity)
-        snprintf(out + used, capacity - (size_t)used, ": RMSE %.4f, bias %+.4f", error->rmse, error->bias);
-}
-
-static void show_names(nook_live *live, double width, double height)
-{
-    for (uint32_t i = 0; i < live->views.count; i++) {
-        const nook_rectangle *place = &live->places[i];
-        char text[128];
-        double size[2], right = (place->x + place->width) * width / live->stage->width;
-        double top = (live->stage->height - place->y - place->height) * height / live->stage->height;
-        describe_view(live, i, text, sizeof text);
-        nook_overlay_label_size(live->overlay, text, size);
-        const double at[2] = { right - size[0] - 4.0 * live->scale,
-                               top + 4.0 * live->scale }; /* games write at the left */
-        bool active = i == live->views.active && live->views.count > 1;
-        nook_overlay_label(live->overlay, at, active ? accent : white, text);
     }
 }
 
@@ -94,10 +71,11 @@ static bool has_messages(const nook_live *live)
 
 static void show_messages(nook_live *live, double width)
 {
-    const double letter = nook_overlay_letter_height(live->overlay);
+    const double letter = nook_overlay_letter_height(live->overlay), side = margin * live->scale;
+    const double names = nook_live_names_bottom(live, width);
     const nook_overlay_panel panel = { .title = "##messages",
-                                       .x = width > 2.0 * message_width * letter ? 0.25 * width : 8.0 * live->scale,
-                                       .y = 28.0 * live->scale, /* below the views' names */
+                                       .x = width > 2.0 * message_width * letter ? 0.25 * width : -side,
+                                       .y = fmax(28.0 * live->scale, names + 0.5 * side),
                                        .bare = true,
                                        .passive = true };
     nook_overlay_panel_begin(live->overlay, &panel);
@@ -106,16 +84,23 @@ static void show_messages(nook_live *live, double width)
         if (!message->text[0])
             continue;
         nook_overlay_text_coloured(live->overlay, red, message->from);
-        nook_overlay_text_wrapped(live->overlay, message_width, message->text);
+        nook_overlay_text_wrapped(live->overlay, fmin(message_width, (width - 4.0 * side) / letter), message->text);
     }
     nook_overlay_panel_end(live->overlay);
 }
 
+/* Whether panels are seen: help lies over them where there is no room beside them, and they wait. */
+static bool has_panels(const nook_live *live)
+{
+    const double letter = nook_overlay_letter_height(live->overlay);
+    return live->panels && !(live->help && live_shown_width(live) < panels_and_help * letter);
+}
+
 static void show_help(nook_live *live)
 {
-    const nook_overlay_panel panel = {
-        .title = "##help", .x = -8.0 * live->scale, .y = -8.0 * live->scale, .bare = true, .passive = true
-    };
+    const double side = margin * live->scale, letter = nook_overlay_letter_height(live->overlay);
+    const double right = has_panels(live) ? 2.0 * side + LIVE_PANEL_WIDTH * letter : side;
+    const nook_overlay_panel panel = { .title = "##help", .x = -right, .y = -side, .bare = true, .passive = true };
     size_t count;
     const nook_live_key *keys = nook_live_help(&count);
     nook_overlay_panel_begin(live->overlay, &panel);
@@ -127,20 +112,35 @@ static void show_help(nook_live *live)
     nook_overlay_panel_end(live->overlay);
 }
 
+/* Lines that end that far down, no wider than the window. @return where they begin */
+static double show_lines(nook_live *live, double bottom, nook_overlay_colour colour, const char *text)
+{
+    const double side = margin * live->scale, room = live_shown_width(live) - 2.0 * side;
+    double size[2], top = bottom;
+    char line[LIVE_NOTE_SIZE];
+    nook_overlay_label_size(live->overlay, text, size);
+    for (const char *at = text; *at; at += strspn(at, " "), top -= size[1])
+        at += nook_overlay_line_length(live->overlay, at, room);
+    for (double y = top; *text; text += strspn(text, " "), y += size[1]) {
+        size_t length = nook_overlay_line_length(live->overlay, text, room);
+        snprintf(line, sizeof line, "%.*s", (int)length, text);
+        nook_overlay_label(live->overlay, (double[]){ side, y }, colour, line);
+        text += length;
+    }
+    return top;
+}
+
 /* "frozen (T): truth by 248 rays, noise 0.0031" */
-static void show_frozen(nook_live *live, double height)
+static void show_frozen(nook_live *live, double bottom)
 {
     char text[128];
-    double size[2];
     const char *frozen = live->freeze ? "frozen (T): " : "";
     if (live->truth.rays > 0)
         snprintf(text, sizeof text, "%struth by %u rays, noise %.4f", frozen, live->truth.rays, live->truth.noise);
     else
         snprintf(text, sizeof text, "%s%s", frozen,
                  live->truth.started ? "the first rays are on their way" : "no truth");
-    nook_overlay_label_size(live->overlay, text, size);
-    const double at[2] = { 8.0 * live->scale, height - 2.2 * size[1] - 8.0 * live->scale };
-    nook_overlay_label(live->overlay, at, white, text);
+    show_lines(live, bottom, white, text);
 }
 
 static bool has_note(const nook_live *live)
@@ -169,12 +169,16 @@ bool live_overlay_moves(const nook_live *live)
     return live->panels || live->overlay_begun || memcmp(&now, &live->seen, sizeof now) != 0;
 }
 
-static void show_note(nook_live *live, double height)
+/* What was done last, and above it what is frozen. */
+static void show_bottom(nook_live *live, bool truth)
 {
-    double size[2];
-    nook_overlay_label_size(live->overlay, live->note, size);
-    const double at[2] = { 8.0 * live->scale, height - size[1] - 8.0 * live->scale };
-    nook_overlay_label(live->overlay, at, grey, live->note);
+    double size[2], bottom = live_shown_height(live) - margin * live->scale;
+    nook_overlay_label_size(live->overlay, "", size);
+    double top = bottom - size[1]; /* room for one line, so that it does not jump */
+    if (has_note(live))
+        top = show_lines(live, bottom, grey, live->note);
+    if (truth)
+        show_frozen(live, top - 0.2 * size[1]);
 }
 
 static void show_panels(nook_live *live, double width)
@@ -188,7 +192,7 @@ static void show_panels(nook_live *live, double width)
 void live_overlay_build(nook_live *live)
 {
     bool truth = live->freeze || live->truth.started;
-    bool views = live->views.count > 1 || live->panels || truth || live->views.views[0].mode != NOOK_LIVE_LIT;
+    bool views = live_names_shown(live);
     live->times_shown = false;
     live->seen = seen_now(live);
     if (!(views || live->help || has_messages(live) || has_note(live) || live->overlay_used)) {
@@ -199,18 +203,12 @@ void live_overlay_build(nook_live *live)
     }
     live_overlay_begin(live);
     live->overlay_used = true;
-    double width = live->width ? live->width : live->stage->width;
-    double height = live->height ? live->height : live->stage->height;
-    nook_live_views_place(&live->views, live->stage->width, live->stage->height, live->places);
-    if (views) {
-        show_borders(live, width, height);
-        show_names(live, width, height);
-    }
-    if (truth)
-        show_frozen(live, height);
-    if (has_note(live))
-        show_note(live, height);
-    if (live->panels)
+    double width = live_shown_width(live);
+    live_borders_show(live);
+    if (views)
+        live_names_show(live);
+    show_bottom(live, truth);
+    if (has_panels(live))
         show_panels(live, width);
     live_probe(live);
     if (live->help)

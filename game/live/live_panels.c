@@ -7,7 +7,7 @@
 
 enum { CHOICES_SIZE = 1024 };
 
-static const double panel_width = 26.0, panel_height = 44.0; /* letters' heights */
+static const double panel_height = 44.0;   /* letters' heights */
 static const double reach_decades = 100.0; /* r_max is shown from 1/100 to 100 times what it was at first */
 
 /* ---- Parameters --------------------------------------------------------------------------------------------------- */
@@ -245,12 +245,11 @@ static void offer_history(nook_live *live)
 
 void live_panel_views(nook_live *live, bool times)
 {
-    const double letters =
-        (live->height ? live->height : live->stage->height) / nook_overlay_letter_height(live->overlay);
+    const double letters = live_shown_height(live) / nook_overlay_letter_height(live->overlay);
     const nook_overlay_panel panel = { .title = "Views",
                                        .x = -8.0 * live->scale,
                                        .y = 8.0 * live->scale,
-                                       .width = panel_width,
+                                       .width = LIVE_PANEL_WIDTH,
                                        .height = fmin(panel_height, letters - 2.0),
                                        .open = &live->panels };
     if (nook_overlay_panel_begin(live->overlay, &panel)) {

@@ -147,19 +147,9 @@ static void choose_paths(nook_live *live, char png[LIVE_PATH_SIZE], char text[LI
     } while (live->picture_number < PICTURES_MAX && (nook_file_exists(png) || nook_file_exists(text)));
 }
 
-static uint32_t shown_width(const nook_live *live)
-{
-    return live->width ? live->width : live->stage->width;
-}
-
-static uint32_t shown_height(const nook_live *live)
-{
-    return live->height ? live->height : live->stage->height;
-}
-
 static nook_result take_picture(nook_live *live, const char *path)
 {
-    uint32_t width = shown_width(live), height = shown_height(live);
+    uint32_t width = live_shown_width(live), height = live_shown_height(live);
     nook_picture picture;
     nook_result result = nook_picture_create(width, height, &picture);
     if (result != NOOK_OK)
@@ -185,8 +175,7 @@ void live_picture_by_key(nook_live *live)
         result = write_text(live, text);
     if (result == NOOK_OK)
         nook_log_info("picture: %s", png);
-    live_note(live, result == NOOK_OK ? "%s, and what made it in the .settings beside it" : "%s could not be written",
-              png);
+    live_note(live, result == NOOK_OK ? "%s, with its .settings" : "%s could not be written", png);
 }
 
 /* ---- Of every frame ----------------------------------------------------------------------------------------------- */
@@ -196,7 +185,7 @@ nook_result nook_live_capture(nook_live *live, const nook_capture_desc *desc)
     nook_live_capture_end(live);
     nook_capture_desc sized = *desc;
     if (sized.width == 0 || sized.height == 0)
-        sized.width = shown_width(live), sized.height = shown_height(live);
+        sized.width = live_shown_width(live), sized.height = live_shown_height(live);
     nook_result result = nook_capture_open(&sized, &live->capture);
     if (result != NOOK_OK)
         return result;

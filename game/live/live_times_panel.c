@@ -83,7 +83,7 @@ void live_times_section(nook_live *live)
 void live_panel_times(nook_live *live)
 {
     const nook_overlay_panel panel = {
-        .title = "Times", .x = 8.0 * live->scale, .y = 32.0 * live->scale, .width = 25.0, .height = 22.0
+        .title = "Times", .x = 8.0 * live->scale, .y = 80.0 * live->scale, .width = 25.0, .height = 22.0
     };
     if (nook_overlay_panel_begin(live->overlay, &panel))
         show_all(live);

@@ -5,6 +5,7 @@
 
 static const nook_overlay_colour white = { 255, 255, 255, 255 }, gold = { 255, 214, 120, 255 };
 static const nook_overlay_colour soft = { 255, 255, 255, 150 };
+static const double menu_width = 26.0, both_lists = 45.0, other_list = 16.0; /* letters' heights */
 
 /* A label whose middle is at (x, y). */
 static void label_around(nook_overlay *overlay, double x, double y, nook_overlay_colour colour, const char *text)
@@ -14,35 +15,21 @@ static void label_around(nook_overlay *overlay, double x, double y, nook_overlay
     nook_overlay_label(overlay, (double[]){ x - 0.5 * size[0], y - 0.5 * size[1] }, colour, text);
 }
 
-/* The longest start of a text, cut at a space, that is no wider than `width`; the whole first word where none is. @return its bytes */
-static size_t line_length(nook_overlay *overlay, const char *text, double width)
+/* Lines whose middles lie on x, the last at y: no wider than the picture. @return where a line above them would be */
+static double label_lines(nook_overlay *overlay, double x, double y, nook_overlay_colour colour, const char *text)
 {
-    char line[512];
-    size_t best = 0;
-    for (size_t at = 0; at <= strlen(text); at++) {
-        double size[2];
-        if (text[at] != ' ' && text[at] != '\0')
-            continue;
-        snprintf(line, sizeof line, "%.*s", (int)at, text);
-        nook_overlay_label_size(overlay, line, size);
-        if (best > 0 && size[0] > width)
-            break;
-        best = at;
-    }
-    return best;
-}
-
-/* Lines whose middles lie on x, the first at y: no wider than the picture. */
-static void label_lines(nook_overlay *overlay, double x, double y, nook_overlay_colour colour, const char *text)
-{
-    double step = 1.6 * nook_overlay_letter_height(overlay);
-    for (; *text; y += step) {
+    const double step = 1.6 * nook_overlay_letter_height(overlay), width = 1.8 * x;
+    double top = y + step;
+    for (const char *at = text; *at; at += strspn(at, " "), top -= step)
+        at += nook_overlay_line_length(overlay, at, width);
+    for (y = top; *text; text += strspn(text, " "), y += step) {
         char line[512];
-        size_t length = line_length(overlay, text, 1.8 * x);
+        size_t length = nook_overlay_line_length(overlay, text, width);
         snprintf(line, sizeof line, "%.*s", (int)length, text);
         label_around(overlay, x, y, colour, line);
-        text += length + (text[length] == ' ');
+        text += length;
     }
+    return top - step;
 }
 
 static void draw_cross(nook_overlay *overlay, double x, double y, bool something)
@@ -73,42 +60,73 @@ static void draw_hint(nook_overlay *overlay, const nook_session_view *view, doub
     label_around(overlay, x, y, white, text);
 }
 
-static void draw_state(const nook_play_window *window, nook_overlay *overlay, const nook_session_view *view)
+enum { STATE_LINES = 3, STATE_SIZE = 160 };
+
+typedef struct state_line {
+    char text[STATE_SIZE];
+    nook_overlay_colour colour;
+} state_line;
+
+/* What stands in the corner. @return how many lines */
+static uint32_t tell_state(const nook_play_window *window, const nook_session_view *view, state_line out[STATE_LINES])
 {
-    double line = 1.6 * nook_overlay_letter_height(overlay), y = 0.5 * line;
-    char text[160];
+    uint32_t count = 0;
     if (view->locks > 0) {
-        snprintf(text, sizeof text, "%u of %u locks open", view->open, view->locks);
-        nook_overlay_label(overlay, (double[]){ 0.5 * line, y }, white, text);
-        y += line;
+        out[count].colour = white;
+        snprintf(out[count++].text, STATE_SIZE, "%u of %u locks open", view->open, view->locks);
     }
     if (view->seconds_left > 0.0) {
         int seconds = (int)ceil(view->seconds_left);
-        snprintf(text, sizeof text, "%d:%02d", seconds / 60, seconds % 60);
-        nook_overlay_label(overlay, (double[]){ 0.5 * line, y }, seconds < 30 ? gold : white, text);
-        y += line;
+        out[count].colour = seconds < 30 ? gold : white;
+        snprintf(out[count++].text, STATE_SIZE, "%d:%02d", seconds / 60, seconds % 60);
     }
     if (window->preferences.frame_times) {
         double median = nook_frame_pacing_quantile(&window->pacing, 0.5);
-        snprintf(text, sizeof text, "%.1f ms a frame (%.0f a second), 99 %% within %.1f ms", median,
+        out[count].colour = white;
+        snprintf(out[count++].text, STATE_SIZE, "%.1f ms a frame (%.0f a second), 99 %% within %.1f ms", median,
                  median > 0.0 ? 1000.0 / median : 0.0, nook_frame_pacing_quantile(&window->pacing, 0.99));
-        nook_overlay_label(overlay, (double[]){ 0.5 * line, y }, white, text);
     }
+    return count;
 }
 
+/* Below the names of views that reach into the corner. */
+static void draw_state(const nook_play_window *window, nook_overlay *overlay, const nook_session_view *view)
+{
+    const double step = 1.6 * nook_overlay_letter_height(overlay), x = 0.5 * step;
+    state_line lines[STATE_LINES];
+    uint32_t count = tell_state(window, view, lines);
+    double widest = 0.0;
+    for (uint32_t i = 0; i < count; i++) {
+        double size[2];
+        nook_overlay_label_size(overlay, lines[i].text, size);
+        widest = fmax(widest, size[0]);
+    }
+    double y = fmax(0.5 * step, nook_live_names_bottom(window->live, x + widest) + 0.25 * step);
+    for (uint32_t i = 0; i < count; i++, y += step)
+        nook_overlay_label(overlay, (double[]){ x, y }, lines[i].colour, lines[i].text);
+}
+
+static void draw_message(const nook_play_window *window, nook_overlay *overlay, const nook_session_view *view)
+{
+    const double line = nook_overlay_letter_height(overlay), x = 0.5 * window->width;
+    bool plays = view->status == NOOK_SESSION_PLAYING;
+    double y = label_lines(overlay, x, window->height - 4.5 * line, plays ? white : gold, view->message);
+    if (!plays)
+        label_around(overlay, x, y, white, "Backspace: from the start again");
+}
+
+/* While it is paused the menu says what is to be done; the lists of keys lie where the message is. */
 void nook_play_draw_hud(nook_play_window *window, nook_overlay *overlay)
 {
     const nook_session_view view = nook_session_look(window->play.session);
-    double middle[2] = { 0.5 * window->width, 0.5 * window->height };
-    double line = nook_overlay_letter_height(overlay);
-    draw_cross(overlay, middle[0], middle[1], *view.looked_at || *view.carried);
-    draw_hint(overlay, &view, middle[0], middle[1] + 3.0 * line);
+    const double x = 0.5 * window->width, y = 0.5 * window->height;
     draw_state(window, overlay, &view);
-    if (*view.message)
-        label_lines(overlay, middle[0], window->height - 4.5 * line, view.status == NOOK_SESSION_PLAYING ? white : gold,
-                    view.message);
-    if (view.status != NOOK_SESSION_PLAYING)
-        label_around(overlay, middle[0], window->height - 6.5 * line, white, "Backspace: from the start again");
+    if (window->paused)
+        return;
+    draw_cross(overlay, x, y, *view.looked_at || *view.carried);
+    draw_hint(overlay, &view, x, y + 3.0 * nook_overlay_letter_height(overlay));
+    if (!window->help)
+        draw_message(window, overlay, &view);
 }
 
 /* A slider, a choice or a box for each row of preferences.def. */
@@ -134,7 +152,9 @@ static void draw_preference(nook_play_window *window, nook_overlay *overlay, con
 
 void nook_play_draw_menu(nook_play_window *window, nook_overlay *overlay)
 {
-    double letter = nook_overlay_letter_height(overlay), width = 26.0;
+    double letter = nook_overlay_letter_height(overlay), width = menu_width;
+    if (window->help && window->width < (both_lists + menu_width) * letter)
+        return; /* there is no room beside the keys */
     const nook_overlay_panel panel = { .title = "Paused##menu",
                                        .x = fmax(0.5 * (window->width - width * letter), 1.0),
                                        .y = 0.15 * window->height,
@@ -160,8 +180,11 @@ void nook_play_draw_menu(nook_play_window *window, nook_overlay *overlay)
     nook_overlay_panel_end(overlay);
 }
 
-void nook_play_draw_help(nook_overlay *overlay)
+/* Beside the list of the views' keys, or above it. */
+void nook_play_draw_help(const nook_play_window *window, nook_overlay *overlay)
 {
+    const double letter = nook_overlay_letter_height(overlay);
+    bool beside = window->width >= both_lists * letter;
     static const char *const lines[][3] = {
         { "W A S D, arrows", "walk", "left stick" },
         { "mouse", "look", "right stick" },
@@ -175,7 +198,9 @@ void nook_play_draw_help(nook_overlay *overlay)
         { "Esc", "pause", "Start; cross, A" },
         { "F11", "full screen", "" },
     };
-    const nook_overlay_panel panel = { .title = "Playing##help", .x = 10.0, .y = -10.0, .passive = true };
+    const nook_overlay_panel panel = {
+        .title = "##playing", .x = 8.0, .y = beside ? -8.0 : -8.0 - other_list * letter, .bare = true, .passive = true
+    };
     if (nook_overlay_panel_begin(overlay, &panel)) {
         for (size_t i = 0; i < NOOK_COUNT(lines); i++) {
             nook_overlay_text_coloured(overlay, gold, lines[i][0]);

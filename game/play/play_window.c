@@ -235,7 +235,7 @@ static void draw_panels(nook_play_window *w)
     if (w->paused)
         nook_play_draw_menu(w, overlay);
     if (w->help)
-        nook_play_draw_help(overlay);
+        nook_play_draw_help(w, overlay);
 }
 
 static nook_result present(nook_play_window *w)

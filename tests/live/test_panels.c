@@ -109,6 +109,62 @@ static void test_messages_stay_until_they_are_taken_back(void **state)
     free(before);
 }
 
+static void test_long_messages_are_broken_into_lines_that_the_window_holds(void **state)
+{
+    live_room *room = *state;
+    uint8_t *before = malloc(LIVE_ROOM_SIZE);
+    live_room_step(room);
+    live_room_picture(room);
+    memcpy(before, room->picture, LIVE_ROOM_SIZE);
+    nook_live_message(room->live, "shaders",
+                      "shaders/render/a_shader_of_some_length.glsl:12: error: there is no function of that name which "
+                      "takes a matrix and two vectors");
+    for (int i = 0; i < 4; i++)
+        live_room_step(room);
+    live_room_picture(room);
+    assert_true(has_red(room));
+    for (size_t y = 0; y < LIVE_ROOM_HEIGHT; y++) { /* nothing of it reaches the edges */
+        const size_t row = y * LIVE_ROOM_WIDTH * 3, right = row + (LIVE_ROOM_WIDTH - 6) * 3;
+        assert_memory_equal(room->picture + row, before + row, 6 * 3);
+        assert_memory_equal(room->picture + right, before + right, 6 * 3);
+    }
+    free(before);
+}
+
+static void test_names_of_narrow_views_take_more_lines_and_stay_in_them(void **state)
+{
+    live_room *room = *state;
+    nook_live_views_set_count(nook_live_state(room->live), 3);
+    for (int i = 0; i < 3; i++)
+        nook_live_state(room->live)->views[i].mode = NOOK_LIVE_VISIBILITY;
+    live_room_step(room);
+    nook_live_overlay(room->live);
+    double wide = nook_live_names_bottom(room->live, LIVE_ROOM_WIDTH);
+    assert_true(wide > 10.0 && wide < 30.0);
+    assert_true(nook_live_names_bottom(room->live, 10.0) == 0.0); /* they stand at the right */
+    room->input.width = 240;                                      /* of the window: 80 pixels for each view */
+    live_room_step(room);
+    nook_live_overlay(room->live);
+    assert_true(nook_live_names_bottom(room->live, 80.0) > wide + 10.0);
+    assert_true(nook_live_names_bottom(room->live, 1.0) == 0.0);
+}
+
+static void test_what_a_host_writes_lies_over_borders(void **state)
+{
+    live_room *room = *state;
+    const nook_overlay_colour white = { 255, 255, 255, 255 };
+    const double low[2] = { 230.0, 140.0 }, high[2] = { 250.0, 160.0 };
+    nook_live_views_set_count(nook_live_state(room->live), 2);
+    nook_live_input(room->live, &room->input, true, &room->rest);
+    nook_overlay_rectangle(nook_live_overlay(room->live), low, high, white);
+    assert_int_equal(nook_live_draw(room->live, &room->camera), NOOK_OK);
+    live_room_picture(room);
+    const uint8_t *below = room->picture + (170 * LIVE_ROOM_WIDTH + LIVE_ROOM_WIDTH / 2) * 3;
+    const uint8_t *on = room->picture + (150 * LIVE_ROOM_WIDTH + LIVE_ROOM_WIDTH / 2) * 3;
+    assert_in_range(below[2], 0, 60); /* lit by the mouse */
+    assert_int_equal(on[2], 255);
+}
+
 static void test_size_of_the_window_may_differ_from_the_picture_s(void **state)
 {
     live_room *room = *state;
@@ -168,6 +224,9 @@ int main(void)
         LIVE_ROOM_TEST(test_slider_of_the_panel_changes_a_parameter_and_undo_takes_it_back),
         LIVE_ROOM_TEST(test_mouse_over_a_panel_is_not_the_host_s),
         LIVE_ROOM_TEST(test_messages_stay_until_they_are_taken_back),
+        LIVE_ROOM_TEST(test_long_messages_are_broken_into_lines_that_the_window_holds),
+        LIVE_ROOM_TEST(test_names_of_narrow_views_take_more_lines_and_stay_in_them),
+        LIVE_ROOM_TEST(test_what_a_host_writes_lies_over_borders),
         LIVE_ROOM_TEST(test_size_of_the_window_may_differ_from_the_picture_s),
         LIVE_ROOM_TEST(test_times_have_a_panel_of_their_own_only_where_there_is_room),
     };

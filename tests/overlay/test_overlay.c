@@ -352,6 +352,66 @@ static void test_lines_and_labels_lie_where_they_are_put(void **state)
     assert_true(pixel(f, 12, 202)[0] < 80);
 }
 
+/* Frames of a target of that size with a line of text in a panel at (x, y). @return where the text is */
+static void show_line(fixture *f, uint32_t width, uint32_t height, const nook_overlay_panel *panel, double out_place[4])
+{
+    const nook_overlay_frame frame = { width, height, 1.0, 0.02, NULL };
+    for (int i = 0; i < 4; i++) {
+        nook_overlay_begin(f->overlay, &frame);
+        nook_overlay_panel_begin(f->overlay, panel);
+        nook_overlay_text(f->overlay, "a line of text");
+        nook_overlay_place(f->overlay, out_place);
+        nook_overlay_panel_end(f->overlay);
+        nook_overlay_end(f->overlay);
+    }
+}
+
+static int count_letters(fixture *f)
+{
+    int count = 0;
+    draw(f);
+    for (int i = 0; i < WIDTH * HEIGHT; i++)
+        count += f->pixels[i][0] > 160;
+    return count;
+}
+
+static void test_panels_are_kept_within_the_target_and_whole(void **state)
+{
+    fixture *f = *state;
+    double place[4];
+    for (int bare = 0; bare < 2; bare++) {
+        const nook_overlay_panel inside = { .title = "##inside", .x = 20, .y = 20, .bare = bare };
+        const nook_overlay_panel low = { .title = "##low", .x = WIDTH - 10, .y = HEIGHT - 5, .bare = bare };
+        const nook_overlay_panel left = { .title = "##left", .x = 20 - WIDTH, .y = -10, .bare = bare };
+        show_line(f, WIDTH, HEIGHT, &inside, place);
+        int letters = count_letters(f);
+        assert_true(letters > 50);
+        show_line(f, WIDTH, HEIGHT, &low, place);
+        assert_true(place[0] + place[2] <= WIDTH && place[1] + place[3] <= HEIGHT);
+        assert_int_equal(count_letters(f), letters);
+        show_line(f, WIDTH, HEIGHT, &left, place);
+        assert_true(place[0] >= 0.0 && place[1] + place[3] <= HEIGHT);
+        assert_int_equal(count_letters(f), letters);
+        show_line(f, WIDTH - 100, HEIGHT - 100, &low, place); /* the target has become smaller */
+        assert_true(place[0] + place[2] <= WIDTH - 100 && place[1] + place[3] <= HEIGHT - 100);
+    }
+}
+
+static void test_lines_end_at_spaces_where_they_fit(void **state)
+{
+    fixture *f = *state;
+    const nook_overlay_frame frame = { WIDTH, HEIGHT, 1.0, 0.02, NULL };
+    double size[2];
+    nook_overlay_begin(f->overlay, &frame);
+    nook_overlay_label_size(f->overlay, "one two", size);
+    assert_int_equal(nook_overlay_line_length(f->overlay, "one two three", size[0]), 7);
+    assert_int_equal(nook_overlay_line_length(f->overlay, "one two three", size[0] - 1.0), 3);
+    assert_int_equal(nook_overlay_line_length(f->overlay, "one two", size[0]), 7);
+    assert_int_equal(nook_overlay_line_length(f->overlay, "immeasurable", 5.0), 12); /* a word is not cut */
+    assert_int_equal(nook_overlay_line_length(f->overlay, "", 5.0), 0);
+    nook_overlay_end(f->overlay);
+}
+
 static void test_frame_begun_twice_forgets_the_first(void **state)
 {
     fixture *f = *state;
@@ -409,6 +469,8 @@ int main(void)
         TEST(test_mouse_beside_a_panel_is_not_taken),
         TEST(test_denser_displays_get_larger_letters),
         TEST(test_lines_and_labels_lie_where_they_are_put),
+        TEST(test_panels_are_kept_within_the_target_and_whole),
+        TEST(test_lines_end_at_spaces_where_they_fit),
         TEST(test_frame_begun_twice_forgets_the_first),
         TEST(test_two_overlays_do_not_disturb_each_other),
         cmocka_unit_test(test_overlay_without_its_shaders_says_which_is_missing),

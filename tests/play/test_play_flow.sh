@@ -125,7 +125,7 @@ it_goes_on_where_it_stood() {
 it_is_quit_from_the_menu() {
     press Escape
     wait_for 10 title_has paused
-    xdotool mousemove --window "$window" 271 124 # "Quit"
+    xdotool mousemove --window "$window" 271 93 # "Quit"
     sleep 0.3
     xdotool click 1
     wait_for 10 not find_window
