@@ -55,13 +55,13 @@ nook_result nook_overlay_draw(nook_overlay *overlay, nook_framebuffer target);
 /** A panel. It is kept within the target; what is not bare is no larger than that, and scrolls. */
 typedef struct nook_overlay_panel {
     const char *title; /**< "##name" for none to be shown. */
-    double x, y;       /**< Where it first appears, pixels; below 0: from the right, from the bottom. */
-    double width;      /**< When it first appears, in letters' heights; 0: as wide as what is in it. */
-    double height;     /**< The same; 0: as high as what is in it. */
-    bool bare;         /**< No title and no frame, and it cannot be moved: a list of lines in a corner. */
-    bool passive;      /**< The mouse goes through it. */
-    bool pad;   /**< A gamepad reaches its widgets too: the cross or the left stick chooses, A presses, B lets go. */
-    bool *open; /**< NULL: it cannot be closed. Else there is a button that sets it to false. */
+    double x, y;   /**< Where it is put at first and in targets of another size, pixels; below 0: from right, bottom. */
+    double width;  /**< Then, in letters' heights; 0: as wide as what is in it. */
+    double height; /**< The same; 0: as high as what is in it. */
+    bool bare;     /**< No title and no frame, and it cannot be moved: a list of lines in a corner. */
+    bool passive;  /**< The mouse goes through it. */
+    bool pad;      /**< A gamepad reaches its widgets too: the cross or the left stick chooses, A presses, B lets go. */
+    bool *open;    /**< NULL: it cannot be closed. Else there is a button that sets it to false. */
 } nook_overlay_panel;
 
 /** @return false: it is folded, leave out its widgets. Call end all the same. */

@@ -22,16 +22,25 @@ static ImVec2 place_of(const nook_overlay_panel *panel, ImVec2 *pivot)
     return ImVec2((float)panel->x + (from_right ? size.x : 0.0f), (float)panel->y + (from_bottom ? size.y : 0.0f));
 }
 
+/* What is kept of a panel from frame to frame. */
+static const ImGuiID target_width = 1, target_height = 2;
+
+/* Never seen before, or the target was of another size then: it is put where it belongs, and sized. */
+static bool is_new(ImGuiWindow *known, ImVec2 target)
+{
+    return !known || known->StateStorage.GetFloat(target_width) != target.x ||
+           known->StateStorage.GetFloat(target_height) != target.y;
+}
+
 /*
- * What would reach out of the target, because that has become smaller or what is in the panel more, comes back into it. By the size
- * that it had in the last frame: one that was not seen yet has none.
+ * What would reach out of the target, because there is more in the panel or somebody has dragged it there, comes back into it: by the
+ * size that it had in the last frame. One that was not seen then has none.
  */
-static void place_panel(const nook_overlay_panel *panel)
+static void place_panel(const nook_overlay_panel *panel, ImGuiWindow *known, bool anew)
 {
     ImVec2 pivot;
     const ImVec2 target = ImGui::GetIO().DisplaySize, place = place_of(panel, &pivot);
-    const ImGuiWindow *known = ImGui::FindWindowByName(panel->title);
-    if (known && known->WasActive && !known->Hidden) {
+    if (known && known->WasActive && !known->Hidden && (panel->bare || !anew)) {
         const ImVec2 size = known->Size;
         const ImVec2 at = panel->bare ? ImVec2(place.x - pivot.x * size.x, place.y - pivot.y * size.y) : known->Pos;
         const ImVec2 kept(std::fmax(std::fmin(at.x, target.x - size.x), 0.0f),
@@ -41,7 +50,7 @@ static void place_panel(const nook_overlay_panel *panel)
             return;
         }
     }
-    ImGui::SetNextWindowPos(place, panel->bare ? ImGuiCond_Always : ImGuiCond_FirstUseEver, pivot);
+    ImGui::SetNextWindowPos(place, panel->bare || anew ? ImGuiCond_Always : ImGuiCond_FirstUseEver, pivot);
 }
 
 bool nook_overlay_panel_begin(nook_overlay *overlay, const nook_overlay_panel *panel)
@@ -57,12 +66,18 @@ bool nook_overlay_panel_begin(nook_overlay *overlay, const nook_overlay_panel *p
     if (panel->width <= 0.0)
         flags |= ImGuiWindowFlags_AlwaysAutoResize;
     const float letter = ImGui::GetFontSize();
-    place_panel(panel);
+    const ImVec2 target = ImGui::GetIO().DisplaySize;
+    ImGuiWindow *known = ImGui::FindWindowByName(panel->title);
+    const bool anew = is_new(known, target);
+    place_panel(panel, known, anew);
     if (panel->width > 0.0)
         ImGui::SetNextWindowSize(ImVec2((float)panel->width * letter, (float)panel->height * letter),
-                                 ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowSizeConstraints(ImVec2(0.0f, 0.0f), ImGui::GetIO().DisplaySize);
-    return ImGui::Begin(panel->title, panel->open, flags);
+                                 anew ? ImGuiCond_Always : ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowSizeConstraints(ImVec2(0.0f, 0.0f), target);
+    const bool unfolded = ImGui::Begin(panel->title, panel->open, flags);
+    ImGui::GetStateStorage()->SetFloat(target_width, target.x);
+    ImGui::GetStateStorage()->SetFloat(target_height, target.y);
+    return unfolded;
 }
 
 void nook_overlay_panel_end(nook_overlay *overlay)

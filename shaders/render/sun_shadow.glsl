@@ -99,7 +99,7 @@ float sun_shadow(vec3 relative, vec3 geometric)
     // Where the surface ends in the map it may meet a blocker, as a wall meets its ceiling, and under a texel from there
     // the bias takes the one for the other. Unless the map shows the surface itself, such an edge takes its light from
     // inside, where the whole filter lies on the surface: about two texels from an edge that halves the filter.
-    Gathered sum;
+    Gathered sum = Gathered(0.0, 0.0, 0.0, vec2(0.0)); // compilers do not know that there is a first turn
     float doubt = 0.0;
     // A loop, because a software driver leaves a loop when no pixel wants more, but runs the inside of an if for all. How
     // often at the most is a number that compilers do not know, or they would unroll it.

@@ -397,6 +397,18 @@ static void test_panels_are_kept_within_the_target_and_whole(void **state)
     }
 }
 
+static void test_panel_in_a_target_of_another_size_is_put_and_sized_as_at_first(void **state)
+{
+    fixture *f = *state;
+    const nook_overlay_panel right = { .title = "##right", .x = -10, .y = 10, .width = 10, .height = 6 };
+    double wide[4], narrow[4], again[4];
+    show_line(f, WIDTH, HEIGHT, &right, wide);
+    show_line(f, WIDTH - 120, HEIGHT, &right, narrow);
+    assert_true(narrow[0] == wide[0] - 120.0 && narrow[1] == wide[1]);
+    show_line(f, WIDTH, HEIGHT, &right, again);
+    assert_memory_equal(wide, again, sizeof wide);
+}
+
 static void test_lines_end_at_spaces_where_they_fit(void **state)
 {
     fixture *f = *state;
@@ -470,6 +482,7 @@ int main(void)
         TEST(test_denser_displays_get_larger_letters),
         TEST(test_lines_and_labels_lie_where_they_are_put),
         TEST(test_panels_are_kept_within_the_target_and_whole),
+        TEST(test_panel_in_a_target_of_another_size_is_put_and_sized_as_at_first),
         TEST(test_lines_end_at_spaces_where_they_fit),
         TEST(test_frame_begun_twice_forgets_the_first),
         TEST(test_two_overlays_do_not_disturb_each_other),
