@@ -151,7 +151,7 @@ nook_result nook_file_write(const char *path, const void *bytes, size_t size)
 
 nook_result nook_file_copy(const char *from, const char *to)
 {
-    nook_file file;
+    nook_file file = { 0 };
     nook_result result = nook_file_read(from, &file);
     if (result != NOOK_OK)
         return result;

@@ -211,11 +211,11 @@ static nook_result choose(nook_tune_trials *trials, const nook_tune_trial **out_
         nook_result result = NOOK_OK;
         if (best->view_count >= wanted && desc->ask)
             result = desc->ask(desc->user, best, &wanted);
-        assert(wanted <= desc->views_max);
         if (result == NOOK_OK && best->view_count >= wanted) {
             *out_best = best;
             return NOOK_OK;
         }
+        assert(result != NOOK_OK || wanted <= desc->views_max);
         if (result == NOOK_OK)
             result = extend(trials, best, wanted);
         if (result != NOOK_OK)

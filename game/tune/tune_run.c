@@ -16,7 +16,7 @@ static const double noise = 0.02;
 
 /* What the callbacks of the search need. */
 typedef struct tuning {
-    const nook_tune_search_desc *search;
+    nook_tune_search_desc search;
     nook_tune_views views;
     nook_tune_progress progress;
     nook_tune_point held_point; /* what the held-back views below are of */
@@ -57,7 +57,7 @@ static nook_result ask_held_back(void *user, const nook_tune_trial *winner, uint
         if (measured != NOOK_OK)
             return measured;
         nook_tune_estimate estimate = nook_tune_pool(t->held, t->held_count);
-        wanted = nook_tune_wanted_surely(t->search, &estimate);
+        wanted = nook_tune_wanted_surely(&t->search, &estimate);
     }
     *out_views = t->held_count;
     return NOOK_OK;
@@ -130,7 +130,7 @@ static nook_result time_winner(tuning *t, const nook_tune_goal *goal, nook_tune_
 static nook_result time_held_back(tuning *t, nook_tune_result *result)
 {
     nook_result timed = nook_tune_views_time(&t->views, &result->outcome.best.setting, NOOK_TUNE_PROVE,
-                                             timed_views(&t->search->goal, t->held_count), t->held);
+                                             timed_views(&t->search.goal, t->held_count), t->held);
     if (timed == NOOK_OK)
         result->actual = nook_tune_pool(t->held, t->held_count);
     return timed;
@@ -154,30 +154,29 @@ static void judge(const nook_tune_goal *goal, nook_tune_result *result)
 
 static nook_result prove(tuning *t, nook_tune_result *result)
 {
-    nook_result measured = time_winner(t, &t->search->goal, result);
+    nook_result measured = time_winner(t, &t->search.goal, result);
     if (measured == NOOK_OK)
         measured = time_held_back(t, result);
     if (measured == NOOK_OK)
-        judge(&t->search->goal, result);
+        judge(&t->search.goal, result);
     return measured;
 }
 
 static nook_result search_and_prove(tuning *t, nook_stage *stage, const nook_tune_options *options,
                                     nook_tune_result *result)
 {
-    const nook_tune_search_desc search = describe(stage->scene, options, t);
+    t->search = describe(stage->scene, options, t);
     const nook_tune_views_desc views = { .cache = options->cache,
                                          .r_max = result->r_max,
                                          .noise = noise,
                                          .rays_max = (uint32_t)options->reference_rays,
-                                         .views_max = search.views_max };
-    t->search = &search;
+                                         .views_max = t->search.views_max };
     nook_progress *outer = stage->progress;
-    t->progress = nook_tune_progress_begin(&options->goal, search.tries_max);
+    t->progress = nook_tune_progress_begin(&options->goal, t->search.tries_max);
     stage->progress = t->progress.terminal ? outer : &t->progress.whole;
     nook_result done = nook_tune_views_open(stage, &views, &t->views);
     if (done == NOOK_OK)
-        done = nook_tune_search(&search, &result->outcome);
+        done = nook_tune_search(&t->search, &result->outcome);
     result->predicted = result->outcome.estimate;
     if (done == NOOK_OK && result->outcome.fits)
         done = prove(t, result);

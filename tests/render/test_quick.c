@@ -114,7 +114,7 @@ static void test_quick_frame_has_colours_and_emission_within_five_of_255_of_the_
         test_picture picture;
         for (int i = 0; i < 16; i++)
             image[i] =
-                i % 4 == 3 ? 255 : (uint8_t)(level + i % 4); /* one colour: what a filter does is not asked here */
+                (uint8_t)(i % 4 == 3 ? 255 : level + i % 4); /* one colour: what a filter does is not asked here */
         make_product(state, &scene, &picture, image);
         for (int k = 0; k < 2; k++) {
             uint8_t exact[3];

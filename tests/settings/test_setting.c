@@ -255,7 +255,7 @@ static void test_a_technique_of_loaded_code_is_listed_in_the_place_of_its_name_o
     static nook_ao_technique other, stranger; /* which stays in the list */
     const nook_ao_technique *linked = nook_technique_find("gtao");
     size_t count, after;
-    const nook_ao_technique *const *techniques = nook_techniques(&count);
+    nook_techniques(&count);
     other = stranger = *linked;
     stranger.name = "alchemy";
     nook_techniques_list(&other);
@@ -266,7 +266,7 @@ static void test_a_technique_of_loaded_code_is_listed_in_the_place_of_its_name_o
     assert_ptr_equal(nook_technique_find("gtao"), linked);
     nook_techniques_list(&stranger);
     assert_ptr_equal(nook_technique_find("alchemy"), &stranger);
-    techniques = nook_techniques(&after);
+    const nook_ao_technique *const *techniques = nook_techniques(&after);
     assert_int_equal(after, count + 1);
     assert_ptr_equal(techniques[count], &stranger);
 }

@@ -438,7 +438,8 @@ static nook_result ask_for_more(void *user, const nook_tune_trial *winner, uint3
 
 static nook_result ask_in_vain(void *user, const nook_tune_trial *winner, uint32_t *out_views)
 {
-    (void)user, (void)winner, (void)out_views;
+    (void)user, (void)winner;
+    *out_views = UINT32_MAX; /* what failed is not looked at */
     return nook_fail(NOOK_E_DEVICE, "the device is gone");
 }
 
