@@ -105,7 +105,7 @@ nook_result nook_edge_render_draw(nook_edge_render *render, nook_edge_scene *sce
     nook_draw draws[NOOK_EDGE_BODIES];
     memset(dark.sun.colour, 0, sizeof dark.sun.colour); /* no shadow map */
     for (uint32_t body = 0; body < NOOK_EDGE_BODIES; body++) {
-        draws[body].mesh = body;
+        draws[body] = (nook_draw){ .mesh = body };
         memcpy(draws[body].world_from_local.m, view->occluders[body].world_from_mesh,
                sizeof draws[body].world_from_local.m);
     }
