@@ -98,7 +98,7 @@ static bool normal_matrix(const nook_matrix *world_from_mesh, float out[3][4])
 
 /** One draw as an instance. @return false when it is left out */
 static bool make_instance(const nook_scene *scene, const nook_draw *draw, const batch_view *view, draw_set *set,
-                          instance_data *out, double *out_near)
+                          instance_data *out, double *out_order)
 {
     const nook_box box = nook_draw_box(scene, draw);
     if (scene->meshes[draw->mesh].primitive_count == 0 || !(box.min[0] <= box.max[0]))
@@ -109,7 +109,7 @@ static bool make_instance(const nook_scene *scene, const nook_draw *draw, const 
         return false;
     if (!normal_matrix(&draw->world_from_local, out->world_normal_from_mesh))
         return false;
-    *out_near = near;
+    *out_order = view->by_end ? far : near;
     nook_matrix_to_float(&view_from_mesh, out->view_from_mesh);
     set->near_distance = fmin(set->near_distance, fmax(near, view->z_near));
     set->far_distance = fmax(set->far_distance, far);
@@ -137,7 +137,7 @@ static void make_batches(draw_set *set, uint32_t bucket_count)
     set->instance_count = first;
 }
 
-static int compare_near(double a, double b)
+static int compare_orders(double a, double b)
 {
     return (a > b) - (a < b);
 }
@@ -146,14 +146,14 @@ static int compare_near(double a, double b)
 static int compare_kept(const void *a, const void *b)
 {
     const kept_draw *x = a, *y = b;
-    int order = compare_near(x->near, y->near);
+    int order = compare_orders(x->order, y->order);
     return order != 0 ? order : (x->draw > y->draw) - (x->draw < y->draw);
 }
 
 static int compare_batches(const void *a, const void *b)
 {
     const batch *x = a, *y = b;
-    int order = compare_near(x->near, y->near);
+    int order = compare_orders(x->order, y->order);
     return order != 0 ? order : (x->first_instance > y->first_instance) - (x->first_instance < y->first_instance);
 }
 
@@ -174,7 +174,7 @@ static void place_instances(draw_set *set, uint32_t kept_count, uint32_t bucket_
             counts[i] = at++;
     }
     for (uint32_t i = kept_count; i-- > 0;)
-        batches[counts[kept[i].bucket]].near = kept[i].near;
+        batches[counts[kept[i].bucket]].order = kept[i].order;
     qsort(batches, set->batch_count, sizeof *batches, compare_batches);
 }
 
@@ -214,10 +214,10 @@ nook_result nook_batch(nook_gpu *gpu, const nook_frame *frame, const batch_view 
         counts[i] = 0;
     for (uint32_t i = 0; i < (uint32_t)count; i++) {
         const nook_draw *draw = &frame->draws[i];
-        double near = 0.0;
-        if (!make_instance(scene, draw, view, set, &unsorted[i], &near))
+        double order = 0.0;
+        if (!make_instance(scene, draw, view, set, &unsorted[i], &order))
             continue;
-        kept[kept_count] = (kept_draw){ i, bucket_of(draw), near };
+        kept[kept_count] = (kept_draw){ i, bucket_of(draw), order };
         counts[kept[kept_count++].bucket]++;
     }
     place_instances(set, kept_count, bucket_count);

@@ -36,6 +36,7 @@ static nook_result collect_visible(nook_renderer *renderer, const nook_frame *fr
         .cull = true,
         .clip_from_view = nook_renderer_clip_from_view(renderer, &frame->camera),
         .z_near = frame->camera.z_near,
+        .by_end = frame->quick,
     };
     nook_result result = nook_batch(renderer->gpu, frame, &view, &renderer->visible);
     if (result == NOOK_OK)

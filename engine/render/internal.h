@@ -113,13 +113,13 @@ typedef struct batch {
     uint32_t mesh;
     uint32_t first_instance, instance_count;
     bool mirrored; /* its triangles wind the other way */
-    double near;   /* of its nearest instance, along the view axis; 0 when nothing is culled */
+    double order;  /* of its first instance */
 } batch;
 
 /** A draw that is in view, and where. */
 typedef struct kept_draw {
     uint32_t draw, bucket; /* bucket: mesh and handedness */
-    double near;           /* along the view axis; 0 when nothing is culled */
+    double order;          /* where its box begins, or ends, along the view axis; 0 when nothing is culled */
 } kept_draw;
 
 /** One blended primitive of one instance. */
@@ -138,9 +138,9 @@ typedef struct grow_list {
 /** What one pass draws: instances in a GPU buffer, and runs of them. */
 typedef struct draw_set {
     grow_list unsorted;  /* instance_data, in the order of the draws */
-    grow_list kept;      /* kept_draw: those in view, nearest first */
+    grow_list kept;      /* kept_draw: those in view, in order */
     grow_list instances; /* instance_data */
-    grow_list batches;   /* batch, nearest first: what lies behind is not shaded */
+    grow_list batches;   /* batch, in order, nearest first: what lies behind is not shaded */
     grow_list counts;    /* uint32_t: draws per mesh and handedness */
     uint32_t instance_count, batch_count;
     double near_distance, far_distance; /* along the view axis, of the boxes of what is in it; near > far when empty */
@@ -239,6 +239,9 @@ typedef struct batch_view {
     bool cull;                   /* leave out what lies outside the frustum */
     nook_matrix clip_from_view;  /* of the frustum; depth reversed. When it culls */
     double z_near;               /* when it culls */
+    /** Order by where boxes end, not where they begin: what reaches from the eye to far away hides little and comes late. Among surfaces
+        in one place the first is seen, so that exact frames keep to one order. */
+    bool by_end;
 } batch_view;
 /** Culls, groups by mesh and uploads. @return NOOK_E_MEMORY */
 nook_result nook_batch(nook_gpu *gpu, const nook_frame *frame, const batch_view *view, draw_set *set);

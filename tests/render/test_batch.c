@@ -173,6 +173,42 @@ static void test_tiny_and_huge_scales_are_taken_and_left_alike(void **state)
     nook_draw_set_destroy(test_gpu_of(state), &set);
 }
 
+/** @param reach where each mesh begins and ends, metres in front of the eye @param out the batches' meshes in order */
+static void order_of(nook_gpu *gpu, const float reach[][2], uint32_t count, bool by_end, uint32_t *out)
+{
+    nook_mesh meshes[4] = { { .primitive_count = 1 } };
+    nook_draw draws[4];
+    draw_set set = { 0 };
+    for (uint32_t i = 0; i < count; i++) {
+        const float low[3] = { -0.5f, -0.5f, -reach[i][1] }, high[3] = { 0.5f, 0.5f, -reach[i][0] };
+        meshes[i].primitive_count = 1;
+        memcpy(meshes[i].bounds_min, low, sizeof low);
+        memcpy(meshes[i].bounds_max, high, sizeof high);
+        draws[i] = (nook_draw){ .mesh = i, .world_from_local = nook_matrix_identity() };
+    }
+    nook_scene scene = { .meshes = meshes, .mesh_count = count };
+    nook_render_scene uploaded = { .scene = &scene };
+    const nook_frame frame = { .scene = &uploaded, .draws = draws, .draw_count = count };
+    batch_view view = { .view_from_world = nook_matrix_identity(), .cull = true, .z_near = 0.1, .by_end = by_end };
+    view.clip_from_view = nook_matrix_perspective_reversed(1.0, aspect, view.z_near);
+    assert_int_equal(nook_batch(gpu, &frame, &view, &set), NOOK_OK);
+    assert_int_equal(set.batch_count, count);
+    for (uint32_t i = 0; i < count; i++)
+        out[i] = ((const batch *)set.batches.items)[i].mesh;
+    nook_draw_set_destroy(gpu, &set);
+}
+
+static void test_batches_come_by_where_they_begin_or_by_where_they_end(void **state)
+{
+    static const float reach[3][2] = { { 0.5f, 50.0f }, { 20.0f, 21.0f }, { 2.0f, 3.0f } }; /* a floor, and two on it */
+    static const uint32_t by_begin[3] = { 0, 2, 1 }, by_end[3] = { 2, 1, 0 };
+    uint32_t order[3];
+    order_of(test_gpu_of(state), reach, 3, false, order);
+    assert_memory_equal(order, by_begin, sizeof order);
+    order_of(test_gpu_of(state), reach, 3, true, order);
+    assert_memory_equal(order, by_end, sizeof order);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -180,6 +216,7 @@ int main(void)
         cmocka_unit_test(test_boxes_a_million_metres_away_are_taken_alike),
         cmocka_unit_test(test_a_box_that_only_touches_a_side_is_taken),
         cmocka_unit_test(test_tiny_and_huge_scales_are_taken_and_left_alike),
+        cmocka_unit_test(test_batches_come_by_where_they_begin_or_by_where_they_end),
     };
     return cmocka_run_group_tests(tests, test_gpu_setup, test_gpu_teardown);
 }
