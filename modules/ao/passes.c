@@ -15,7 +15,7 @@ nook_result ao_dispatch_over(nook_ao *ao, const char *path, const char *defines,
     return result;
 }
 
-enum { HOST_TEXTURES = 2 };
+enum { HOST_TEXTURES = 2, UPSCALE_BILINEAR = 2 };
 
 /** However the host samples its textures, ours is the nearest texel; release_host gives it back. */
 static void bind_host(nook_ao *ao, const nook_ao_frame *frame)
@@ -113,7 +113,10 @@ static nook_result filter_stepped(nook_ao *ao, const nook_ao_frame *frame)
     bind_host(ao, frame);
     nook_bind_texture(ao->gpu, 2, trace->filtered);
     nook_bind_image(ao->gpu, 0, ao->targets.visibility, GL_WRITE_ONLY);
-    result = dispatch_full(ao, "shaders/ao/upscale.comp.glsl", frame->normal.native ? "#define HAS_NORMAL\n" : "");
+    char defines[48];
+    snprintf(defines, sizeof defines, "%s%s", frame->normal.native ? "#define HAS_NORMAL\n" : "",
+             ao->shared.upscale == UPSCALE_BILINEAR ? "#define BILINEAR\n" : "");
+    result = dispatch_full(ao, "shaders/ao/upscale.comp.glsl", defines);
     release_host(ao);
     return result;
 }

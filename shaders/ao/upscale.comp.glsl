@@ -1,6 +1,7 @@
 // Joint bilateral upscaling of the filtered trace (Kopf et al. 2007): of the four trace pixels around each full-resolution pixel,
-// bilinear weights times how much each lies on the pixel's surface; where none does, all around have a say. Define: HAS_NORMAL,
-// the host gives normals; to rebuild them too, just in case, would cost a software driver as much as if all were rebuilt.
+// bilinear weights times how much each lies on the pixel's surface; where none does, all around have a say. Defines: HAS_NORMAL,
+// the host gives normals; to rebuild them too, just in case, would cost a software driver as much as if all were rebuilt. BILINEAR,
+// only the four have a say, by weights without exponentials.
 #include "ao/guide.glsl"
 #include "ao/host.glsl"
 layout(local_size_x = 16, local_size_y = 8) in;
@@ -26,6 +27,32 @@ vec3 sample_position(ivec2 q, vec3 normal_depth, out float inverse)
     return view_position(q, square * inverse);
 }
 
+#ifdef BILINEAR
+// The sums of both kinds of weight: those of filter.comp.glsl, nearly, and by the plane alone. Where no sample lies on the pixel's own
+// surface (the bottom of a joint that the trace has jumped over) the second is the answer; where none sees anything the pixel is open.
+float upscaled(vec2 centre, Guide guide)
+{
+    Mean strict = Mean(1.0, 0.0, 0.0), loose = Mean(1.0, 0.0, 0.0);
+    ivec2 base = ivec2(floor(centre));
+    vec2 part = centre - vec2(base);
+    for (int i = 0; i < 4; i++) {
+        ivec2 step = ivec2(i & 1, i >> 1), q = clamp(base + step, ivec2(0), frame.size - 1);
+        vec2 near = mix(1.0 - part, part, vec2(step));
+        vec4 texel = fetch_trace(filtered_trace, q);
+        float inverse, plane = plane_distance(guide, sample_position(q, texel.xyz, inverse)), square = plane * plane;
+        float facing = max(dot(guide.normal, texel.xyz) * inverse, 0.0), slant = facing * facing;
+        float window = texel.xyz != vec3(0.0) && plane < 1e9 ? near.x * near.y + 1e-4 : 0.0;
+        slant *= slant;
+        slant *= slant; // to the 8th
+        float weight = slant / (1.0 + square * (1.0 + square * (0.5 + square)));
+        add(strict, texel.w, weight >= WEIGHT_MIN ? weight * window : 0.0);
+        add(loose, texel.w, window / (1.0 + square));
+    }
+    if (!(strict.weights > 0.0))
+        strict = loose;
+    return strict.reference + (strict.weights > 0.0 ? strict.sum / strict.weights : 0.0);
+}
+#else
 // filter.comp.glsl's weight in one exponential. 0 where there is no geometry; always a number.
 float weight_on_surface(Guide guide, ivec2 q, vec3 normal_depth)
 {
@@ -78,6 +105,7 @@ float upscaled(vec2 centre, Guide guide)
     add_around(mean, guide, centre);
     return mean.reference + (mean.weights > 0.0 ? mean.sum / mean.weights : 0.0);
 }
+#endif
 
 vec3 guide_normal(ivec2 p, vec3 position)
 {

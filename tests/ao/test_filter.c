@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -14,8 +15,8 @@ static const struct way {
     const char *scale, *upscale;
     uint32_t factor;
 } ways[] = {
-    { "full", "direct", 1 },    { "half", "direct", 2 },     { "half", "stepped", 2 },
-    { "quarter", "direct", 4 }, { "quarter", "stepped", 4 },
+    { "full", "direct", 1 },    { "half", "direct", 2 },     { "half", "stepped", 2 },     { "half", "bilinear", 2 },
+    { "quarter", "direct", 4 }, { "quarter", "stepped", 4 }, { "quarter", "bilinear", 4 },
 };
 enum { WAYS = NOOK_COUNT(ways) };
 static const char *const filters[] = { "none", "disc", "tile" };
@@ -84,6 +85,25 @@ static float paint_constant(const ao_probe *probe, uint32_t x, uint32_t y)
     return background && probe->width == probe->view->width ? 1.0f : probe->painted;
 }
 
+/** Whether all that bilinear upscaling looks at, the four trace pixels around one of the picture, sees nothing. */
+static bool four_see_nothing(const nook_fixture_view *view, const struct way *way, uint32_t pixel)
+{
+    const int scale = (int)way->factor, size[2] = { (int)view->width, (int)view->height };
+    const int p[2] = { (int)(pixel % view->width), (int)(pixel / view->width) };
+    bool nothing = strcmp(way->upscale, "bilinear") == 0;
+    for (int i = 0; i < 4; i++) {
+        int at[2];
+        for (int axis = 0; axis < 2; axis++) {
+            int trace = (size[axis] + scale - 1) / scale, half = scale / 2;
+            int q = (int)floor((p[axis] - half) / (double)scale) + (i >> axis & 1);
+            q = q < 0 ? 0 : q < trace ? q : trace - 1;
+            at[axis] = q * scale + half < size[axis] ? q * scale + half : size[axis] - 1;
+        }
+        nothing = nothing && view->device_depth[at[1] * size[0] + at[0]] == 0.0f;
+    }
+    return nothing;
+}
+
 static void test_filter_gives_a_constant_back_bit_for_bit_and_background_as_one(void **state)
 {
     static const uint32_t sizes[][2] = { { 37, 23 }, { 1, 1 }, { 5, 40 }, { 64, 16 } };
@@ -98,7 +118,8 @@ static void test_filter_gives_a_constant_back_bit_for_bit_and_background_as_one(
             ao_view_probe(view)->painted = step == 0 ? 0.0f : step == 1 ? 0.1f : 0.7123456f;
             ao_view_record(view, "probe");
             for (uint32_t i = 0; i < view->width * view->height; i++) {
-                if (view->visibility[i] != (view->device_depth[i] > 0.0f ? ao_view_probe(view)->painted : 1.0f))
+                bool open = view->device_depth[i] == 0.0f || four_see_nothing(view, way, i);
+                if (view->visibility[i] != (open ? 1.0f : ao_view_probe(view)->painted))
                     fail_msg("%ux%u, %s, %s, %s, pixel %u: %.9g", view->width, view->height, way->scale, way->upscale,
                              filters[k % 3], i, view->visibility[i]);
             }
@@ -177,6 +198,8 @@ static void test_filter_averages_what_is_around_when_no_sample_is_on_the_surface
     /* The trace picks column and row scale / 2 of each block: nothing it saw lies on the first columns. */
     for (uint32_t k = 2; k < WAYS * 2; k++) {
         uint32_t scale = ways[k / 2].factor;
+        if (strcmp(ways[k / 2].upscale, "bilinear") == 0)
+            continue; /* has the four alone */
         nook_fixture_view *view = start(state, 48, 32);
         set_way(view, &ways[k / 2], filters[1 + k % 2]);
         for (uint32_t i = 0; i < 48 * 32; i++)
@@ -190,6 +213,34 @@ static void test_filter_averages_what_is_around_when_no_sample_is_on_the_surface
             if (fabsf(view->visibility[i] - 0.5f) > 0.1f)
                 fail_msg("scale %u, %s, pixel (%u, %u): %g shows one sample", scale, filters[1 + k % 2], x, y,
                          view->visibility[i]);
+        }
+    }
+}
+
+static float paint_by_column(const ao_probe *probe, uint32_t x, uint32_t y)
+{
+    (void)probe, (void)y;
+    return (float)(x % 2);
+}
+
+static void test_bilinear_upscaling_weighs_four_by_their_planes_when_none_is_on_the_surface(void **state)
+{
+    for (uint32_t k = 1; k < WAYS; k++) {
+        int scale = (int)ways[k].factor;
+        if (strcmp(ways[k].upscale, "bilinear") != 0)
+            continue;
+        nook_fixture_view *view = start(state, 48, 32);
+        set_way(view, &ways[k], "none");
+        for (uint32_t i = 0; i < 48 * 32; i++)
+            nook_fixture_view_set_pixel(view, i % 48, i / 48, (int)i % 48 % scale ? 50.0 : 1.0, facing);
+        ao_view_probe(view)->paint = paint_by_column;
+        ao_view_record(view, "probe");
+        for (int x = 3 * scale; x < 48 - 3 * scale;
+             x += scale) { /* all four are equally far off: bilinear, between two columns */
+            double centre = (x - scale / 2) / (double)scale, part = centre - floor(centre);
+            double expected = (int)floor(centre) % 2 ? 1.0 - part : part;
+            if (fabs((double)view->visibility[16 * 48 + x] - expected) > 1e-3)
+                fail_msg("scale %d, column %d: %g, by hand %g", scale, x, view->visibility[16 * 48 + x], expected);
         }
     }
 }
@@ -286,6 +337,7 @@ int main(void)
         cmocka_unit_test(test_filter_leaks_nothing_across_a_step_of_depth),
         cmocka_unit_test(test_filter_leaks_nothing_across_a_right_angle),
         cmocka_unit_test(test_filter_averages_what_is_around_when_no_sample_is_on_the_surface),
+        cmocka_unit_test(test_bilinear_upscaling_weighs_four_by_their_planes_when_none_is_on_the_surface),
         cmocka_unit_test(test_filter_of_a_ramp_stays_near_it_at_every_scale),
         cmocka_unit_test(test_filter_never_writes_nan_whatever_the_buffers_hold),
         cmocka_unit_test(test_techniques_never_write_nan_whatever_the_buffers_hold),

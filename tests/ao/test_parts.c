@@ -14,7 +14,7 @@ enum { WIDTH = 67, HEIGHT = 45, PIXELS = WIDTH * HEIGHT };
 
 static const char *const techniques[] = { "volume", "ssao", "hsao", "hbao", "gtao", "reference" };
 static const char *const filters[] = { "none", "disc", "tile" };
-static const char *const upscales[] = { "direct", "stepped" };
+static const char *const upscales[] = { "direct", "stepped", "bilinear" };
 static const nook_rectangle parts[] = { { 0, 0, 33, HEIGHT }, { 17, 9, 1, 1 },   { 21, 5, 40, 13 },
                                         { 66, 44, 1, 1 },     { 3, 30, 64, 15 }, { 0, 0, WIDTH, HEIGHT } };
 
@@ -221,7 +221,7 @@ static void test_fetches_of_all_pixels_are_the_sum_that_is_counted(void **state)
     for (size_t t = 0; t + 1 < NOOK_COUNT(techniques); t++) { /* not the reference, which fetches nothing */
         for (size_t s = 0; s < NOOK_FIXTURE_SCALES; s++) {
             ao_view_param(view, "ao.scale", nook_fixture_scales[s]);
-            ao_view_param(view, "ao.upscale", upscales[t % 2]);
+            ao_view_param(view, "ao.upscale", upscales[t % 3]);
             expect_same_fetches(view, image, techniques[t]);
         }
     }
