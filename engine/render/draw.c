@@ -134,14 +134,36 @@ static void draw_batch(nook_renderer *renderer, const nook_render_scene *s, cons
     }
 }
 
+static uint32_t triangles_of(const nook_render_scene *s, const batch *b)
+{
+    const nook_mesh *mesh = &s->scene->meshes[b->mesh];
+    uint32_t indices = 0;
+    for (uint32_t i = 0; i < mesh->primitive_count; i++)
+        indices += s->primitives[mesh->first_primitive + i].index_count;
+    return indices / 3 * b->instance_count;
+}
+
+/**
+ * Software GL begins to fill triangles, on threads of its own, when it is flushed, and works on vertices in this thread only: what is
+ * flushed early fills its pixels meanwhile.
+ */
+enum { FLUSHED_TRIANGLES = 24000 };
+
 void nook_draw_solid(nook_renderer *renderer, const nook_render_scene *scene, const draw_set *set,
                      program_choice choose, const void *user, bool cull)
 {
     const batch *batches = set->batches.items;
     const solid_draw how = { choose, user, cull };
+    uint32_t triangles = 0;
     nook_bind_geometry(renderer, scene, set);
-    for (uint32_t i = 0; i < set->batch_count; i++)
+    for (uint32_t i = 0; i < set->batch_count; i++) {
         draw_batch(renderer, scene, &batches[i], NOOK_ALPHA_OPAQUE, &how);
+        triangles += triangles_of(scene, &batches[i]);
+        if (renderer->gpu->software && triangles >= FLUSHED_TRIANGLES) {
+            renderer->gpu->gl->Flush();
+            triangles = 0;
+        }
+    }
     for (uint32_t i = 0; i < set->batch_count; i++)
         draw_batch(renderer, scene, &batches[i], NOOK_ALPHA_MASK, &how);
 }
