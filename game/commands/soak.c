@@ -36,7 +36,7 @@ static bool read_request(const nook_app *app, int argc, char **argv, soak_reques
         .option_count = NOOK_COUNT(options),
         .details =
             "Holds when no visibility was NaN or outside of [0, 1], no body left the world, no file stayed open, and\n"
-            "memory grew by at most 2 % and 4 MiB after the first tenth of the frames.\n"
+            "the least memory of the last tenth of the frames is at most 2 % and 4 MiB more than that of the second.\n"
     };
     nook_arguments arguments;
     if (!nook_arguments_read(&usage, argc, argv, &arguments, out_exit_code))
@@ -58,9 +58,10 @@ static void print_report(const nook_soak_report *r)
     printf("pixels     %llu looked at, %llu not in [0, 1]\n", (unsigned long long)r->pixels,
            (unsigned long long)r->wrong);
     printf("bodies     %u left the world\n", r->returned);
-    printf("memory     %.1f MiB after a tenth, at most %.1f MiB later; %.1f MiB more are allowed\n",
-           (double)r->memory[0] / 1048576.0, (double)r->memory[1] / 1048576.0,
-           (double)nook_soak_memory_allowed(r) / 1048576.0);
+    printf(
+        "memory     at least %.1f MiB in the second tenth and %.1f in the last; %.1f more are allowed; at most %.1f\n",
+        (double)r->memory.early / 1048576.0, (double)r->memory.late / 1048576.0,
+        (double)nook_soak_memory_allowed(&r->memory) / 1048576.0, (double)r->memory.most / 1048576.0);
     printf("files      %u open after a tenth, %u at the end\n", r->files[0], r->files[1]);
 }
 

@@ -15,7 +15,8 @@ enum {
     RELOAD_EVERY = 499,
     RESIZE_EVERY = 1201,
     RESTART_EVERY = 4999,
-    LOOK_EVERY = 37
+    LOOK_EVERY = 37,
+    COUNT_EVERY = 7 /* several times in a tenth of the shortest run */
 };
 static const double throw_speed = 9.0; /* metres per second */
 
@@ -24,7 +25,7 @@ typedef struct soak {
     nook_play_window *window; /**< Its state, which is kept. */
     nook_soak_report *report;
     uint32_t random;
-    uint32_t warm; /**< Frames until memory is first looked at. */
+    uint32_t frames, warm; /**< Of the whole run; until the process is first looked at. */
     float *visibility;
     size_t visibility_count;
 } soak;
@@ -97,12 +98,9 @@ static nook_result look_at_process(soak *s, uint32_t frame)
     if (result != NOOK_OK)
         return result;
     nook_soak_report *report = s->report;
-    if (frame <= s->warm) {
-        report->memory[0] = process.resident;
+    nook_soak_memory_add(&report->memory, frame, s->frames, process.resident);
+    if (frame <= s->warm)
         report->files[0] = process.files;
-    }
-    if (process.resident > report->memory[1] || frame <= s->warm)
-        report->memory[1] = process.resident;
     report->files[1] = process.files;
     return NOOK_OK;
 }
@@ -155,7 +153,7 @@ static nook_result run_frame(soak *s, uint32_t frame)
         result = nook_soak_code_frame(s->code);
     if (result == NOOK_OK && frame % LOOK_EVERY == 0)
         result = look_at_pixels(s);
-    if (result == NOOK_OK && (frame == s->warm || (frame > s->warm && frame % LOOK_EVERY == 0)))
+    if (result == NOOK_OK && (frame == s->warm || (frame > s->warm && frame % COUNT_EVERY == 0)))
         result = look_at_process(s, frame);
     s->report->frames = frame;
     return result;
@@ -172,7 +170,12 @@ nook_result nook_soak_run(const char *root, const nook_soak_desc *desc, nook_soa
     if (result != NOOK_OK)
         return result;
     nook_play_window *window = nook_module_host_look(code.play.host).state;
-    soak s = { .code = &code, .window = window, .report = out_report, .random = desc->seed, .warm = desc->frames / 10 };
+    soak s = { .code = &code,
+               .window = window,
+               .report = out_report,
+               .random = desc->seed,
+               .frames = desc->frames,
+               .warm = desc->frames / 10 };
     nook_progress progress = nook_progress_begin("soak");
     double start = nook_clock_ms();
     nook_interrupt_hold();
@@ -191,13 +194,8 @@ nook_result nook_soak_run(const char *root, const nook_soak_desc *desc, nook_soa
     return result == NOOK_OK ? closed : result;
 }
 
-uint64_t nook_soak_memory_allowed(const nook_soak_report *report)
-{
-    return report->memory[0] / 50 + (4u << 20);
-}
-
 bool nook_soak_holds(const nook_soak_report *report)
 {
     return report->wrong == 0 && report->returned == 0 && report->pixels > 0 && report->files[1] <= report->files[0] &&
-           report->memory[1] <= report->memory[0] + nook_soak_memory_allowed(report);
+           nook_soak_memory_holds(&report->memory);
 }
