@@ -49,7 +49,8 @@ typedef struct ao_trace {
     nook_texture visibility; /**< id 0 before the scale was used. */
     nook_texture filtered;   /**< RGBA32F: normal times depth, visibility; id 0 until a stepped upscaling needs it. */
     nook_texture depth, normal; /**< id 0 at scale 1, where the full ones are taken. */
-    int holds_view;             /**< Depth and normal are those of the last record's frame. */
+    int holds_view;             /**< Depth and normal are those of the last record's frame, */
+    int downsample;             /**< by this ao.downsample. */
 } ao_trace;
 
 enum { AO_SCALES = 3 /* 1, 2, 4 */ };

@@ -15,7 +15,7 @@ nook_result ao_dispatch_over(nook_ao *ao, const char *path, const char *defines,
     return result;
 }
 
-enum { HOST_TEXTURES = 2, UPSCALE_BILINEAR = 2 };
+enum { HOST_TEXTURES = 2, UPSCALE_BILINEAR = 2, DOWNSAMPLE_MAJORITY = 1 };
 
 /** However the host samples its textures, ours is the nearest texel; release_host gives it back. */
 static void bind_host(nook_ao *ao, const nook_ao_frame *frame)
@@ -62,9 +62,12 @@ nook_result ao_fill_inputs(nook_ao *ao, const nook_ao_frame *frame)
         result = dispatch_prepare(ao, frame, "", targets->depth, targets->normal);
         targets->holds_view = result == NOOK_OK;
     }
-    if (result == NOOK_OK && ao->scale > 0 && !trace->holds_view) {
-        result = dispatch_prepare(ao, frame, "#define AT_TRACE\n", trace->depth, trace->normal);
+    if (result == NOOK_OK && ao->scale > 0 && (!trace->holds_view || trace->downsample != ao->shared.downsample)) {
+        const char *defines = ao->shared.downsample == DOWNSAMPLE_MAJORITY ? "#define AT_TRACE\n#define MAJORITY\n"
+                                                                           : "#define AT_TRACE\n";
+        result = dispatch_prepare(ao, frame, defines, trace->depth, trace->normal);
         trace->holds_view = result == NOOK_OK;
+        trace->downsample = ao->shared.downsample;
     }
     return result;
 }

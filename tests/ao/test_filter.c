@@ -304,6 +304,7 @@ static void test_filter_never_writes_nan_whatever_the_buffers_hold(void **state)
     for (size_t k = 0; k < WAYS * 6; k++) {
         nook_fixture_view *view = start(state, 37, 23);
         set_way(view, &ways[k / 3 % WAYS], filters[k % 3]);
+        ao_view_param(view, "ao.downsample", k % 3 == 1 ? "majority" : "centre");
         draw_absurdities(view);
         view->without_normals = k >= WAYS * 3;
         ao_view_probe(view)->paint = paint_random;

@@ -1,0 +1,60 @@
+#pragma once
+// Which surface a pixel of the trace stands for, by vote: of four pixels of its block the one that most of them agree with by plane and
+// normal. What is a pixel or two wide (a joint, a moulding's bevel, a wire) is then left to the upscaling all along instead of being
+// met by every fourth pixel, which draws dashes of it.
+#include "ao/host.glsl"
+
+const int VOTERS = 4;
+const ivec2 OF_HALF[VOTERS] = ivec2[](ivec2(0, 0), ivec2(1, 0), ivec2(0, 1), ivec2(1, 1));
+const ivec2 OF_QUARTER[VOTERS] = ivec2[](ivec2(0, 1), ivec2(1, 3), ivec2(3, 2), ivec2(2, 0)); // no two in a row or a column
+
+struct Voter {
+    vec3 position, normal; // view space; position 0: nothing seen
+};
+
+Voter voter_at(ivec2 pixel)
+{
+    ivec2 p = min(pixel, frame.full_size - 1);
+    float depth = distance_at(p);
+    return Voter(full_ray(vec2(p)) * depth, normal_at(p, depth));
+}
+
+// How far b lies on a's surface, 0 to 1: by the distance to a's plane in pixels of the trace, and by the normals.
+float agreement(Voter a, Voter b)
+{
+    float plane = dot(a.normal, b.position - a.position) / (-a.position.z * pixel_footprint() * float(frame.scale));
+    float facing = max(dot(a.normal, b.normal), 0.0);
+    facing *= facing;
+    facing *= facing;
+    return b.position.z < 0.0 ? facing * facing / (1.0 + plane * plane) : 0.0;
+}
+
+// Where the winner's plane is seen through the middle of the block, from where rays start. A plane seen from its edge would be met
+// anywhere: no farther from the winner than on one seen under 14 degrees a block away.
+float depth_of_plane(Voter winner, vec3 ray)
+{
+    float own = -winner.position.z, reach = 4.0 * own * pixel_footprint() * float(frame.scale);
+    float met = dot(winner.normal, winner.position) / dot(winner.normal, ray);
+    return met > 0.0 ? clamp(met, own - reach, own + reach) : own; // not for NaN
+}
+
+// @return depth, 0 where nothing is seen
+float representative(ivec2 trace_pixel, out vec3 normal)
+{
+    Voter voters[VOTERS];
+    for (int i = 0; i < VOTERS; i++)
+        voters[i] = voter_at(trace_pixel * frame.scale + (frame.scale == 2 ? OF_HALF[i] : OF_QUARTER[i]));
+    Voter winner = Voter(vec3(0.0), vec3(0.0, 0.0, 1.0));
+    float most = -1.0;
+    for (int i = 0; i < VOTERS; i++) {
+        float votes = 0.0;
+        for (int j = 0; j < VOTERS; j++)
+            votes += j == i ? 0.0 : agreement(voters[i], voters[j]);
+        if (voters[i].position.z < 0.0 && votes > most) {
+            winner = voters[i];
+            most = votes;
+        }
+    }
+    normal = winner.normal;
+    return most >= 0.0 ? depth_of_plane(winner, full_ray(vec2(full_pixel(trace_pixel)))) : 0.0;
+}
