@@ -124,6 +124,13 @@ nook_result nook_stage_open(const nook_stage_desc *desc, nook_stage *out_stage)
     return result;
 }
 
+/* Of nook_ao_set_supply: what is marched for the first time is baked then. */
+static nook_result supply_volumes(void *user, uint32_t kinds)
+{
+    nook_stage *stage = user;
+    return nook_game_world_supply(stage->world, kinds, &stage->volumes);
+}
+
 nook_result nook_stage_fill(nook_stage *stage, const nook_game_world_desc *desc)
 {
     nook_result result = NOOK_OK;
@@ -135,6 +142,7 @@ nook_result nook_stage_fill(nook_stage *stage, const nook_game_world_desc *desc)
         result = nook_game_world_bake(stage->world, stage->ao, desc);
     stage->filled = result == NOOK_OK;
     stage->volumes = *desc;
+    nook_ao_set_supply(stage->ao, supply_volumes, stage);
     if (result != NOOK_OK || stage->renderer)
         return result;
     stage->lights = nook_lights_from_scene(stage->scene);
@@ -145,6 +153,7 @@ nook_result nook_stage_fill(nook_stage *stage, const nook_game_world_desc *desc)
 nook_result nook_stage_renew(nook_stage *stage)
 {
     nook_ao_set_progress(stage->ao, pass_progress_on, stage);
+    nook_ao_set_supply(stage->ao, supply_volumes, stage);
     return nook_game_world_renew(stage->world);
 }
 

@@ -53,14 +53,15 @@ typedef struct nook_stage {
 nook_result nook_stage_open(const nook_stage_desc *desc, nook_stage *out_stage);
 
 /**
- * Bakes the volumes and uploads everything: the long part. Again with another description it makes the world anew
+ * Bakes the volumes and uploads everything: the long part. Kinds of volumes that no technique marches as it is set now are baked when a
+ * record asks for them. Again with another description it makes the world anew
  * with other volumes; begin a frame after it.
  * @return why not; close the stage then
  */
 nook_result nook_stage_fill(nook_stage *stage, const nook_game_world_desc *desc);
 
 /**
- * After code was loaded anew: the world's systems, and whom the AO tells of long records. Its techniques are replaced by
+ * After code was loaded anew: the world's systems, whom the AO tells of long records, and whom it asks for volumes. Its techniques are replaced by
  * nook_ao_replace_technique. @return as nook_world_replace_system
  */
 nook_result nook_stage_renew(nook_stage *stage);

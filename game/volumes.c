@@ -90,12 +90,20 @@ void nook_scene_volume_release(nook_scene_volume *volume)
 {
     free(volume->positions);
     free(volume->indices);
-    free(volume->bake.bytes);
-    free(volume->surfels.bytes);
     volume->positions = NULL;
     volume->indices = NULL;
-    volume->bake.bytes = NULL;
-    volume->surfels.bytes = NULL;
+    for (int kind = 0; kind < NOOK_VOLUME_KINDS; kind++) {
+        free(volume->bakes[kind].bytes);
+        volume->bakes[kind].bytes = NULL;
+    }
+}
+
+const nook_bake *nook_scene_volume_bake(const nook_scene_volume *volume)
+{
+    for (int kind = 0; kind < NOOK_VOLUME_KINDS; kind++)
+        if (volume->bakes[kind].bytes)
+            return &volume->bakes[kind];
+    return NULL;
 }
 
 static void free_volume(nook_scene_volume *volume)
@@ -317,14 +325,15 @@ static nook_result check_kept(const nook_volumes_desc *desc, const nook_bake *ba
     return NOOK_OK;
 }
 
-static nook_result bake_kind(const nook_volumes_desc *desc, const nook_scene_volume *volume, nook_volume_kind kind,
-                             nook_bake *out_bake, bool *warned)
+static nook_result bake_kind(const nook_volumes_desc *desc, nook_scene_volume *volume, nook_volume_kind kind,
+                             bool *warned)
 {
     const nook_triangles triangles = { volume->positions, 0, volume->vertex_count, volume->indices,
                                        volume->index_count };
     const nook_voxelize_desc how = { .resolution = volume->resolution, .threads = desc->threads, .kind = kind };
-    nook_result result = nook_bake_cached(desc->cache_dir, volume->name, &triangles, &how, out_bake);
-    return result == NOOK_OK ? check_kept(desc, out_bake, warned) : result;
+    nook_bake *bake = &volume->bakes[kind];
+    nook_result result = nook_bake_cached(desc->cache_dir, volume->name, &triangles, &how, bake);
+    return result == NOOK_OK ? check_kept(desc, bake, warned) : result;
 }
 
 static nook_result bake_all(const nook_volumes_desc *desc, nook_scene_volumes *volumes)
@@ -332,9 +341,10 @@ static nook_result bake_all(const nook_volumes_desc *desc, nook_scene_volumes *v
     bool warned = false;
     for (uint32_t i = 0; i < volumes->volume_count; i++) {
         nook_scene_volume *volume = &volumes->volumes[i];
-        nook_result result = bake_kind(desc, volume, NOOK_VOLUME_BINARY, &volume->bake, &warned);
-        if (result == NOOK_OK && desc->surfels)
-            result = bake_kind(desc, volume, NOOK_VOLUME_SURFEL, &volume->surfels, &warned);
+        nook_result result = NOOK_OK;
+        for (int kind = 0; kind < NOOK_VOLUME_KINDS && result == NOOK_OK; kind++)
+            if (volumes->kinds & NOOK_VOLUME_BIT(kind))
+                result = bake_kind(desc, volume, (nook_volume_kind)kind, &warned);
         if (result != NOOK_OK)
             return result;
         if (desc->progress)
@@ -371,7 +381,8 @@ nook_result nook_volumes_bake(const nook_scene *scene, const nook_volumes_desc *
         return nook_fail(NOOK_E_RANGE, "bake: r_max %g; choose a length in metres above 0", desc->r_max);
     if (desc->must_keep && nook_directory_make(desc->cache_dir) != NOOK_OK)
         return NOOK_E_IO; /* before the work */
-    nook_scene_volumes volumes = { .r_max = desc->r_max > 0.0 ? desc->r_max : nook_volumes_default_r_max(scene) };
+    nook_scene_volumes volumes = { .r_max = desc->r_max > 0.0 ? desc->r_max : nook_volumes_default_r_max(scene),
+                                   .kinds = desc->kinds ? desc->kinds : NOOK_VOLUME_BIT(NOOK_VOLUME_BINARY) };
     nook_result result = collect(scene, &volumes);
     if (result == NOOK_OK) {
         choose_resolutions(&volumes, resolution);

@@ -30,13 +30,13 @@ typedef struct nook_scene_volume {
     char *name;       /**< The mesh's name, or "static"; never NULL. */
     float *positions; /**< xyz, metres, mesh space; packed. Finite. */
     uint32_t vertex_count;
-    uint32_t *indices;   /**< What was voxelised, and what the reference traces. */
-    size_t index_count;  /**< A multiple of 3, at least 3. */
-    double longest;      /**< Longest side of its box, metres, mesh space. */
-    uint32_t instances;  /**< Occluders that it stands for. */
-    uint32_t resolution; /**< What it was baked at: voxels on the longest side. */
-    nook_bake bake;      /**< The .nkv file image, what it holds, bake time, cache hit. */
-    nook_bake surfels;   /**< The same as surfel bricks; zero unless they were asked for. */
+    uint32_t *indices;                  /**< What was voxelised, and what the reference traces. */
+    size_t index_count;                 /**< A multiple of 3, at least 3. */
+    double longest;                     /**< Longest side of its box, metres, mesh space. */
+    uint32_t instances;                 /**< Occluders that it stands for. */
+    uint32_t resolution;                /**< What it was baked at: voxels on the longest side. */
+    nook_bake bakes[NOOK_VOLUME_KINDS]; /**< Of each kind asked for: the .nkv file image, what it holds, bake time,
+                                             cache hit; else zero. */
 } nook_scene_volume;
 
 /** A body in the scene. */
@@ -52,7 +52,8 @@ typedef struct nook_scene_volumes {
     uint32_t volume_count;
     nook_scene_occluder *occluders;
     uint32_t occluder_count;
-    double r_max; /**< Metres; the one that the resolutions follow from. */
+    double r_max;   /**< Metres; the one that the resolutions follow from. */
+    uint32_t kinds; /**< Those that were asked for: bits NOOK_VOLUME_BIT. */
 } nook_scene_volumes;
 
 typedef struct nook_volumes_desc {
@@ -60,7 +61,7 @@ typedef struct nook_volumes_desc {
     double r_max;          /**< Metres; 0: NOOK_VOLUMES_R_MAX_DEFAULT of the diagonal. */
     const char *cache_dir; /**< NULL: no cache. */
     bool must_keep;        /**< Volumes that cannot be kept in the cache are a failure; else one warning. */
-    bool surfels;          /**< Bakes each volume as surfel bricks, too. */
+    uint32_t kinds;        /**< Of volumes: bits NOOK_VOLUME_BIT; 0: binary ones. */
     uint32_t threads;      /**< 0: all cores. */
     /** Called after each volume; NULL for none. `index` runs from 0 to count - 1. */
     void (*progress)(void *user, const nook_scene_volume *done, uint32_t index, uint32_t count);
@@ -79,6 +80,8 @@ uint32_t nook_volumes_body_resolution(double longest, double r_max, uint32_t res
  * @return NOOK_E_RANGE resolution or r_max; NOOK_E_MEMORY; NOOK_E_IO must_keep, and they cannot be kept; *out is untouched on failure
  */
 nook_result nook_volumes_bake(const nook_scene *scene, const nook_volumes_desc *desc, nook_scene_volumes *out);
+/** The first kind that a volume was baked in. @return NULL for none */
+const nook_bake *nook_scene_volume_bake(const nook_scene_volume *volume);
 /** Frees one volume's data once it has been uploaded; its name, numbers and place stay. */
 void nook_scene_volume_release(nook_scene_volume *volume);
 void nook_volumes_free(nook_scene_volumes *volumes); /**< NULL and zeroed ones are allowed. */

@@ -5,6 +5,7 @@
 #include "game/live_volumes.h"
 #include "game/progress.h"
 #include "game/volumes.h"
+#include "modules/bake/brick_grid.h"
 #include <assert.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -23,8 +24,8 @@ struct nook_game_world {
     nook_draw *draws;
     nook_ao_occluder *occluders;
     nook_world_volume *volumes;
-    nook_volume_occluder *uploaded; /* of each volume */
     uint32_t volume_count;
+    uint32_t kinds; /* that the volumes are there in */
 };
 
 static void show_bake(void *user, const nook_scene_volume *done, uint32_t index, uint32_t count)
@@ -33,13 +34,14 @@ static void show_bake(void *user, const nook_scene_volume *done, uint32_t index,
     nook_progress_update(user, (index + 1.0) / count);
 }
 
-static nook_result bake(const nook_scene *scene, const nook_game_world_desc *desc, nook_scene_volumes *out_volumes)
+static nook_result bake(const nook_scene *scene, const nook_game_world_desc *desc, uint32_t kinds,
+                        nook_scene_volumes *out_volumes)
 {
     nook_progress progress = nook_progress_begin("baking volumes");
     const nook_volumes_desc volumes = { .resolution = desc->resolution,
                                         .r_max = desc->r_max,
                                         .cache_dir = desc->cache,
-                                        .surfels = true,
+                                        .kinds = kinds,
                                         .progress = show_bake,
                                         .user = &progress };
     nook_result result = nook_volumes_bake(scene, &volumes, out_volumes);
@@ -47,33 +49,66 @@ static nook_result bake(const nook_scene *scene, const nook_game_world_desc *des
     return result;
 }
 
-static void describe_volume(const nook_scene_volume *volume, nook_world_volume *out)
+/* As it is on the GPU. */
+static uint64_t gpu_bytes(const nook_volume_info *info)
 {
-    const nook_volume_info *info = &volume->bake.info;
-    *out = (nook_world_volume){ .width = info->width,
-                                .height = info->height,
-                                .depth = info->depth,
-                                .voxel_size = info->voxel_size,
-                                .bytes = (uint64_t)info->width * info->height * info->depth,
-                                .file_bytes = volume->bake.size,
-                                .instances = volume->instances,
-                                .bake_ms = volume->bake.ms,
-                                .cached = volume->bake.cache_hit };
-    snprintf(out->name, sizeof out->name, "%s", volume->name);
+    if (info->kind == NOOK_VOLUME_SURFEL)
+        return nook_brick_total(info) * sizeof(nook_brick) + info->occupied * sizeof(nook_surfel);
+    return (uint64_t)info->width * info->height * info->depth;
+}
+
+static void describe_bake(const nook_bake *bake, nook_world_volume *out)
+{
+    const nook_volume_info *info = &bake->info;
+    out->bakes[info->kind] = (nook_world_bake){ true, bake->cache_hit, gpu_bytes(info), bake->ms };
+    if (out->width > 0)
+        return;
+    out->width = info->width;
+    out->height = info->height;
+    out->depth = info->depth;
+    out->voxel_size = info->voxel_size;
+}
+
+nook_world_bake nook_world_volume_sum(const nook_world_volume *volume, uint32_t kinds)
+{
+    nook_world_bake sum = { .cached = true };
+    for (int kind = 0; kind < NOOK_VOLUME_KINDS; kind++) {
+        const nook_world_bake *bake = &volume->bakes[kind];
+        if (!(kinds & NOOK_VOLUME_BIT(kind)) || !bake->there)
+            continue;
+        sum.there = true;
+        sum.cached = sum.cached && bake->cached;
+        sum.bytes += bake->bytes;
+        sum.ms += bake->ms;
+    }
+    return sum;
+}
+
+/* Uploads the kinds that a volume was baked in. */
+static nook_result extend(nook_ao *ao, const nook_scene_volume *baked, nook_world_volume *volume)
+{
+    nook_result result = NOOK_OK;
+    for (int kind = 0; kind < NOOK_VOLUME_KINDS && result == NOOK_OK; kind++) {
+        const nook_bake *bake = &baked->bakes[kind];
+        if (!bake->bytes || volume->bakes[kind].there)
+            continue;
+        result = nook_ao_extend_volume(ao, volume->occluder.volume, baked->name, bake->bytes, bake->size);
+        if (result == NOOK_OK)
+            describe_bake(bake, volume);
+    }
+    return result;
 }
 
 /* Uploads a volume and its triangles. */
-static nook_result upload(nook_ao *ao, const nook_scene_volume *volume, nook_volume_occluder *out_occluder)
+static nook_result upload(nook_ao *ao, const nook_scene_volume *baked, nook_world_volume *volume)
 {
-    nook_result result =
-        nook_ao_add_volume(ao, volume->name, volume->bake.bytes, volume->bake.size, &out_occluder->volume);
-    if (result == NOOK_OK && volume->surfels.bytes)
-        result =
-            nook_ao_extend_volume(ao, out_occluder->volume, volume->name, volume->surfels.bytes, volume->surfels.size);
+    nook_result result = nook_ao_reserve_volume(ao, &volume->occluder.volume);
+    if (result == NOOK_OK)
+        result = extend(ao, baked, volume);
     if (result != NOOK_OK)
         return result;
-    return nook_ao_add_mesh(ao, volume->positions, volume->vertex_count, volume->indices, (uint32_t)volume->index_count,
-                            &out_occluder->mesh);
+    return nook_ao_add_mesh(ao, baked->positions, baked->vertex_count, baked->indices, (uint32_t)baked->index_count,
+                            &volume->occluder.mesh);
 }
 
 static nook_result add_transform(nook_game_world *world, nook_entity entity, const nook_matrix *matrix)
@@ -127,7 +162,7 @@ static nook_result make_occluders(nook_game_world *world, const nook_scene_volum
             entity = world->of_node[occluder->node];
         if (result == NOOK_OK)
             result = nook_entity_add(world->entities, entity, world->components.volume_occluder,
-                                     &world->uploaded[occluder->volume]);
+                                     &world->volumes[occluder->volume].occluder);
         if (result != NOOK_OK)
             return result;
     }
@@ -159,16 +194,17 @@ static nook_result fill(nook_game_world *world, nook_scene_volumes *baked)
 {
     uint32_t occluder_max = baked->occluder_count + world->scene->deformable_count;
     world->volumes = calloc(baked->volume_count + 1, sizeof *world->volumes);
-    world->uploaded = calloc(baked->volume_count + 1, sizeof *world->uploaded);
     world->occluders = calloc(occluder_max + 1u, sizeof *world->occluders);
-    if (!world->volumes || !world->uploaded || !world->occluders)
+    if (!world->volumes || !world->occluders)
         return nook_fail(NOOK_E_MEMORY, "%s: no memory for its volumes", world->scene->path);
     world->volume_count = baked->volume_count;
+    world->kinds = baked->kinds;
     nook_result result = NOOK_OK;
     for (uint32_t i = 0; i < baked->volume_count && result == NOOK_OK; i++) {
-        describe_volume(&baked->volumes[i], &world->volumes[i]);
-        result = upload(world->ao, &baked->volumes[i], &world->uploaded[i]);
-        world->volumes[i].occluder = world->uploaded[i];
+        nook_world_volume *volume = &world->volumes[i];
+        snprintf(volume->name, sizeof volume->name, "%s", baked->volumes[i].name);
+        volume->instances = baked->volumes[i].instances;
+        result = upload(world->ao, &baked->volumes[i], volume);
         nook_scene_volume_release(&baked->volumes[i]); /* the AO has its own copy; two of all are much memory */
     }
     if (result == NOOK_OK)
@@ -237,7 +273,7 @@ nook_result nook_game_world_create(const nook_scene *scene, nook_game_world **ou
 nook_result nook_game_world_bake(nook_game_world *world, nook_ao *ao, const nook_game_world_desc *desc)
 {
     nook_scene_volumes baked = { 0 };
-    nook_result result = bake(world->scene, desc, &baked);
+    nook_result result = bake(world->scene, desc, nook_ao_volume_kinds(ao), &baked);
     return result == NOOK_OK ? nook_game_world_take_volumes(world, ao, &baked) : result;
 }
 
@@ -250,13 +286,34 @@ nook_result nook_game_world_take_volumes(nook_game_world *world, nook_ao *ao, no
     return result;
 }
 
+nook_result nook_game_world_supply(nook_game_world *world, uint32_t kinds, const nook_game_world_desc *desc)
+{
+    nook_scene_volumes baked = { 0 };
+    uint32_t missing = kinds & ~world->kinds;
+    if (!missing)
+        return NOOK_OK;
+    nook_result result = bake(world->scene, desc, missing, &baked);
+    assert(result != NOOK_OK || baked.volume_count == world->volume_count); /* of the same scene */
+    for (uint32_t i = 0; i < baked.volume_count && result == NOOK_OK; i++)
+        result = extend(world->ao, &baked.volumes[i], &world->volumes[i]);
+    if (result == NOOK_OK)
+        world->kinds |= missing;
+    nook_volumes_free(&baked);
+    return result;
+}
+
+uint32_t nook_game_world_kinds(const nook_game_world *world)
+{
+    return world->kinds;
+}
+
 void nook_game_world_destroy(nook_game_world *world)
 {
     if (!world)
         return;
     for (uint32_t i = 0; i < world->volume_count; i++) { /* those that were not reached have no ids */
-        nook_ao_remove_volume(world->ao, world->uploaded[i].volume);
-        nook_ao_remove_mesh(world->ao, world->uploaded[i].mesh);
+        nook_ao_remove_volume(world->ao, world->volumes[i].occluder.volume);
+        nook_ao_remove_mesh(world->ao, world->volumes[i].occluder.mesh);
     }
     nook_world_destroy(world->entities);
     nook_live_volumes_destroy(world->ao, &world->live);
@@ -266,7 +323,6 @@ void nook_game_world_destroy(nook_game_world *world)
     free(world->draws);
     free(world->occluders);
     free(world->volumes);
-    free(world->uploaded);
     free(world);
 }
 

@@ -8,6 +8,7 @@
 #include "engine/render/renderer.h"
 #include "game/components.h"
 #include "modules/ao/nook_ao.h"
+#include "modules/bake/volume_file.h"
 #include <stdbool.h>
 
 typedef struct nook_game_world nook_game_world;
@@ -19,18 +20,27 @@ typedef struct nook_game_world_desc {
     const char *cache;   /**< Folder of baked volumes; NULL: none. */
 } nook_game_world_desc;
 
+/** What a volume is in one kind. */
+typedef struct nook_world_bake {
+    bool there;     /**< It has been baked in this kind. */
+    bool cached;    /**< Read from the cache. */
+    uint64_t bytes; /**< As it is on the GPU. */
+    double ms;      /**< Wall time of baking, or of reading it from the cache. */
+} nook_world_bake;
+
 /** A volume, for reports. */
 typedef struct nook_world_volume {
     char name[64];
-    uint32_t width, height, depth; /**< Voxels. */
+    uint32_t width, height, depth; /**< Voxels; 0 before it was baked in any kind. */
     double voxel_size;             /**< Metres. */
-    uint64_t bytes;                /**< Of voxels, as they are on the GPU. */
-    uint64_t file_bytes;           /**< Of its .nkv file. */
     uint32_t instances;            /**< Bodies that it stands for. */
     nook_volume_occluder occluder; /**< Its ids in the AO. */
-    double bake_ms;                /**< Wall time of baking, or of reading it from the cache. */
-    bool cached;
+    nook_world_bake bakes[NOOK_VOLUME_KINDS];
 } nook_world_volume;
+
+/** All of some kinds together: there and cached when everything that is there is. @param kinds  bits NOOK_VOLUME_BIT */
+nook_world_bake nook_world_volume_sum(const nook_world_volume *volume, uint32_t kinds);
+#define NOOK_WORLD_EVERY_KIND UINT32_MAX
 
 /**
  * Makes the entities of a scene's nodes. Nothing darkens yet.
@@ -39,8 +49,8 @@ typedef struct nook_world_volume {
  */
 nook_result nook_game_world_create(const nook_scene *scene, nook_game_world **out_world);
 /**
- * Bakes or reads the volumes (with progress on standard error), uploads them with their triangles, and gives the entities
- * their occluders. Once in the life of a world.
+ * Bakes or reads the volumes, in the kinds that the AO's techniques march as they are set (with progress on standard error), uploads
+ * them with their triangles, and gives the entities their occluders. Once in the life of a world.
  * @param ao  outlives the world
  * @return why not; destroy the world then
  */
@@ -50,6 +60,15 @@ nook_result nook_game_world_bake(nook_game_world *world, nook_ao *ao, const nook
  * @return as nook_game_world_bake
  */
 nook_result nook_game_world_take_volumes(nook_game_world *world, nook_ao *ao, struct nook_scene_volumes *baked);
+/**
+ * Bakes or reads the volumes in more kinds, and uploads those: when they are asked for (nook_ao_set_supply). What is there already
+ * costs nothing.
+ * @param kinds  bits NOOK_VOLUME_BIT @param desc  as the world was baked
+ * @return as nook_game_world_bake; what was there stays
+ */
+nook_result nook_game_world_supply(nook_game_world *world, uint32_t kinds, const nook_game_world_desc *desc);
+/** Kinds that its volumes are there in: bits NOOK_VOLUME_BIT. */
+uint32_t nook_game_world_kinds(const nook_game_world *world);
 /** NULL is allowed. Takes its volumes and triangles out of the AO that they were baked for. */
 void nook_game_world_destroy(nook_game_world *world);
 

@@ -5,10 +5,11 @@
 #include "game/settings/settings_file.h"
 #include "game/volumes.h"
 #include <stdio.h>
+#include <string.h>
 
 /* The texts of --help that hold numbers. */
 typedef struct bake_help {
-    char resolution[128], r_max[128], details[640];
+    char resolution[128], r_max[128], details[768];
 } bake_help;
 
 static void describe(bake_help *out)
@@ -22,6 +23,7 @@ static void describe(bake_help *out)
         out->details, sizeof out->details,
         "The resolution of a body follows from r_max: its voxels are r_max / %d, but it has at least %u along its\n"
         "longest side and at most half of --resolution. All that stands still shares one volume of --resolution.\n"
+        "Compare, play and the others bake the kinds that they march by themselves, when they do.\n"
         "Instances share a bake. Blended (glass-like) materials are left out. Files are named by content: a second\n"
         "bake finds them; when they cannot be written, bake fails. Format: docs/volume_format.md.\n",
         NOOK_VOLUMES_VOXELS_PER_R_MAX, NOOK_VOLUMES_BODY_RESOLUTION_MIN);
@@ -30,9 +32,14 @@ static void describe(bake_help *out)
 static void tell_progress(void *user, const nook_scene_volume *done, uint32_t index, uint32_t count)
 {
     (void)user;
-    nook_log_info("[%u/%u] %s: %u voxels a side, %.1f ms%s", index + 1, count, done->name, done->resolution,
-                  done->bake.ms + done->surfels.ms,
-                  done->bake.cache_hit && done->surfels.cache_hit ? ", from the cache" : "");
+    double ms = 0.0;
+    bool cached = true;
+    for (int kind = 0; kind < NOOK_VOLUME_KINDS; kind++) {
+        ms += done->bakes[kind].ms;
+        cached = cached && (!done->bakes[kind].bytes || done->bakes[kind].cache_hit);
+    }
+    nook_log_info("[%u/%u] %s: %u voxels a side, %.1f ms%s", index + 1, count, done->name, done->resolution, ms,
+                  cached ? ", from the cache" : "");
 }
 
 static void print_row(const nook_scene_volume *v, const nook_bake *bake)
@@ -41,7 +48,7 @@ static void print_row(const nook_scene_volume *v, const nook_bake *bake)
     char size[40], time[32];
     snprintf(size, sizeof size, "%ux%ux%u", info->width, info->height, info->depth);
     snprintf(time, sizeof time, "%.1f", bake->ms);
-    printf("%-28.28s %-6s %9zu %6u %13s %10.3g %10llu %10zu %9s\n", v->name, nook_volume_kind_name(info->kind),
+    printf("%-28.28s %-8s %9zu %6u %13s %10.3g %10llu %10zu %9s\n", v->name, nook_volume_kind_name(info->kind),
            v->index_count / 3, v->instances, size, info->voxel_size, (unsigned long long)info->occupied, bake->size,
            bake->cache_hit ? "cached" : time);
 }
@@ -50,14 +57,16 @@ static void print_table(const nook_scene_volumes *volumes)
 {
     size_t bytes = 0;
     double ms = 0.0;
-    printf("%-28s %-6s %9s %6s %13s %10s %10s %10s %9s\n", "volume", "kind", "triangles", "uses", "voxels", "voxel m",
+    printf("%-28s %-8s %9s %6s %13s %10s %10s %10s %9s\n", "volume", "kind", "triangles", "uses", "voxels", "voxel m",
            "occupied", "bytes", "ms");
     for (uint32_t i = 0; i < volumes->volume_count; i++) {
         const nook_scene_volume *v = &volumes->volumes[i];
-        print_row(v, &v->bake);
-        print_row(v, &v->surfels);
-        bytes += v->bake.size + v->surfels.size;
-        ms += v->bake.ms + v->surfels.ms;
+        for (int kind = 0; kind < NOOK_VOLUME_KINDS; kind++) {
+            if (v->bakes[kind].bytes)
+                print_row(v, &v->bakes[kind]);
+            bytes += v->bakes[kind].size;
+            ms += v->bakes[kind].ms;
+        }
     }
     printf("%u volumes, %u occluders, %zu bytes, %.1f ms, r_max %.4g m\n", volumes->volume_count,
            volumes->occluder_count, bytes, ms, volumes->r_max);
@@ -88,9 +97,31 @@ static int bake_file(const char *path, const nook_volumes_desc *desc)
 typedef struct bake_request {
     const char *scene, *cache, *settings;
     int32_t resolution, threads;
+    uint32_t kinds;
     double r_max;
     char default_cache[NOOK_OPTION_PATH_MAX];
 } bake_request;
+
+/* "binary,surfel". */
+static bool read_kinds(void *target, const char *text)
+{
+    uint32_t kinds = 0;
+    while (*text) {
+        size_t length = strcspn(text, ",");
+        uint32_t found = 0;
+        for (int kind = 0; kind < NOOK_VOLUME_KINDS; kind++) {
+            const char *name = nook_volume_kind_name((nook_volume_kind)kind);
+            if (name && strlen(name) == length && strncmp(name, text, length) == 0)
+                found = NOOK_VOLUME_BIT(kind);
+        }
+        if (!found)
+            return false;
+        kinds |= found;
+        text += length + (text[length] == ',');
+    }
+    *(uint32_t *)target = kinds;
+    return kinds != 0;
+}
 
 static bool read_request(const nook_app *app, int argc, char **argv, bake_request *out, int *out_exit_code)
 {
@@ -106,6 +137,13 @@ static bool read_request(const nook_app *app, int argc, char **argv, bake_reques
         nook_option_row_resolution(&out->resolution, help.resolution),
         nook_option_row_r_max(&out->r_max, help.r_max),
         nook_option_row_cache(&out->cache, "where volumes are kept; default cache/ beside the sources"),
+        { .name = "kinds",
+          .kind = NOOK_OPTION_CUSTOM,
+          .target = &out->kinds,
+          .placeholder = "A,B",
+          .help = "of volumes, as of volume.kind; default binary",
+          .read = read_kinds,
+          .expects = "kinds of volumes: binary, surfel" },
         nook_option_row_int("threads", &out->threads, 0, 1024, "default 0: one per processor"),
     };
     const nook_usage usage = { .command = "bake",
@@ -146,7 +184,7 @@ int nook_command_bake(const nook_app *app, int argc, char **argv)
     if (settle(&request) != NOOK_OK)
         return NOOK_EXIT_FAILED;
     const nook_volumes_desc desc = { .resolution = (uint32_t)request.resolution,
-                                     .surfels = true,
+                                     .kinds = request.kinds,
                                      .r_max = request.r_max,
                                      .cache_dir = request.cache,
                                      .must_keep = true,

@@ -117,15 +117,16 @@ static void write_volumes(nook_json *json, const nook_game_world *world)
     nook_json_begin_array(json);
     for (uint32_t i = 0; i < count; i++) {
         const double dimensions[] = { volumes[i].width, volumes[i].height, volumes[i].depth };
+        const nook_world_bake bakes = nook_world_volume_sum(&volumes[i], NOOK_WORLD_EVERY_KIND);
         nook_json_begin_object(json);
         nook_json_member_string(json, "name", volumes[i].name);
         nook_json_key(json, "dimensions");
         nook_json_numbers(json, dimensions, 3);
         nook_json_member_number(json, "voxel_size", volumes[i].voxel_size);
-        nook_json_member_integer(json, "bytes", (int64_t)volumes[i].bytes);
+        nook_json_member_integer(json, "bytes", (int64_t)bakes.bytes);
         nook_json_member_integer(json, "instances", volumes[i].instances);
-        nook_json_member_number(json, "bake_ms", volumes[i].bake_ms);
-        nook_json_member_bool(json, "cached", volumes[i].cached);
+        nook_json_member_number(json, "bake_ms", bakes.ms);
+        nook_json_member_bool(json, "cached", bakes.cached);
         nook_json_end_object(json);
     }
     nook_json_end_array(json);

@@ -40,9 +40,10 @@ static void print_volumes(const nook_report *report, FILE *stream)
     double ms = 0.0;
     const nook_world_volume *volumes = nook_game_world_volumes(report->stage->world, &count);
     for (uint32_t i = 0; i < count; i++) {
-        bytes += volumes[i].bytes;
-        cached += volumes[i].cached;
-        ms += volumes[i].bake_ms;
+        nook_world_bake bakes = nook_world_volume_sum(&volumes[i], NOOK_WORLD_EVERY_KIND);
+        bytes += bakes.bytes;
+        cached += bakes.cached;
+        ms += bakes.ms;
     }
     fprintf(stream, "%u volumes, %.1f MB", count, (double)bytes * 1e-6);
     if (cached < count)

@@ -59,7 +59,7 @@ static void *run(void *user)
     nook_scene_loading *load = user;
     unsigned cores = nook_core_count();
     const nook_volumes_desc volumes = { .resolution = load->desc.resolution,
-                                        .surfels = true,
+                                        .kinds = load->desc.kinds,
                                         .r_max = load->desc.r_max,
                                         .cache_dir = load->desc.cache,
                                         .threads = cores > 1 ? cores - 1 : 1 }; /* one is left for the picture */

@@ -15,6 +15,7 @@ typedef struct nook_scene_loading_desc {
     nook_moment moment;       /**< The pose of a scene that is one file. */
     uint32_t resolution;      /**< As nook_game_world_desc. */
     double r_max;             /**< The same. */
+    uint32_t kinds;           /**< Of volumes: bits NOOK_VOLUME_BIT; 0: binary ones. */
     const char *cache;        /**< The same; volumes of meshes that are as they were come from it. */
     uint32_t unreadable_most; /**< Images that may be unreadable: those that are so in the scene that is shown. */
 } nook_scene_loading_desc;

@@ -221,6 +221,7 @@ static void start_load(nook_scene_reload *self)
                                            .moment = self->stage->moment,
                                            .resolution = self->volumes.resolution,
                                            .r_max = self->volumes.r_max,
+                                           .kinds = nook_game_world_kinds(self->stage->world),
                                            .cache = self->volumes.cache,
                                            .unreadable_most = nook_scene_unreadable_images(self->stage->scene) };
     nook_loaded_scene_free(&self->waiting);

@@ -37,14 +37,16 @@ static nook_sample empty_sample(void)
 
 /* ---- Cost ------------------------------------------------------------------------------------------------------- */
 
-/* Baking all volumes; NaN when any came from a cache: reading is not baking. */
-static double sum_bake_ms(const nook_game_world *world)
+/* Baking all volumes in the kind that is marched; NaN when any came from a cache: reading is not baking. */
+static double sum_bake_ms(const nook_stage *stage)
 {
     uint32_t count;
-    const nook_world_volume *volumes = nook_game_world_volumes(world, &count);
+    const nook_world_volume *volumes = nook_game_world_volumes(stage->world, &count);
     double sum = 0.0;
-    for (uint32_t i = 0; i < count; i++)
-        sum += volumes[i].cached ? NAN : volumes[i].bake_ms;
+    for (uint32_t i = 0; i < count; i++) {
+        nook_world_bake bakes = nook_world_volume_sum(&volumes[i], nook_ao_volume_kinds(stage->ao));
+        sum += bakes.there && bakes.cached ? NAN : bakes.ms;
+    }
     return sum;
 }
 
@@ -100,7 +102,7 @@ static nook_result take_picture(nook_site *site, const nook_setting *setting, ui
         sample->fetches = statistics.fetches_per_pixel;
         sample->volume_bytes = volumes ? (double)statistics.volume_bytes : 0.0;
         sample->texture_bytes = (double)statistics.texture_bytes;
-        sample->bake_ms = volumes ? sum_bake_ms(site->stage->world) : 0.0;
+        sample->bake_ms = volumes ? sum_bake_ms(site->stage) : 0.0;
     }
     return result == NOOK_OK ? nook_compare_read_visibility(site->stage, out_picture) : result;
 }

@@ -4,8 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define EVERY_KIND (AO_KIND_BIT(NOOK_VOLUME_BINARY) | AO_KIND_BIT(NOOK_VOLUME_SURFEL))
-
 static void no_progress(void *user, double fraction)
 {
     (void)user, (void)fraction;
@@ -99,6 +97,7 @@ void nook_ao_destroy(nook_ao *ao)
     nook_texture_destroy(ao->gpu, &ao->occluder_texture);
     nook_buffer_destroy(ao->gpu, &ao->occluder_buffer);
     nook_buffer_destroy(ao->gpu, &ao->counter);
+    free(ao->volume_ids);
     free(ao->occluders);
     free(ao->gpu_occluders);
     free(ao->instances);
@@ -120,50 +119,6 @@ void nook_ao_set_progress(nook_ao *ao, void (*progress)(void *user, double fract
     ao->progress_user = user;
 }
 
-/** Gives the volume to those who keep its kind; it becomes zero. */
-static nook_result keep_volume(nook_ao *ao, uint32_t id, nook_volume *volume)
-{
-    nook_result result = volume->info.kind == NOOK_VOLUME_SURFEL ? brick_pool_add(&ao->pool, id, volume)
-                                                                 : volume_atlas_add(&ao->atlas, id, volume);
-    nook_volume_free(volume);
-    return result;
-}
-
-nook_result nook_ao_add_volume(nook_ao *ao, const char *name, const void *bytes, size_t size,
-                               nook_ao_volume *out_volume)
-{
-    nook_volume volume;
-    nook_result result = nook_volume_decode(name, bytes, size, &volume);
-    if (result == NOOK_OK)
-        result = keep_volume(ao, ao->next_volume_id, &volume);
-    if (result == NOOK_OK)
-        out_volume->id = ao->next_volume_id++;
-    return result;
-}
-
-nook_result nook_ao_extend_volume(nook_ao *ao, nook_ao_volume volume, const char *name, const void *bytes, size_t size)
-{
-    nook_volume added;
-    if (!ao_volume_info(ao, volume.id, EVERY_KIND))
-        return nook_fail(NOOK_E_NOT_FOUND, "%s: the volume %u has been removed", name, volume.id);
-    nook_result result = nook_volume_decode(name, bytes, size, &added);
-    if (result != NOOK_OK)
-        return result;
-    if (ao_volume_info(ao, volume.id, AO_KIND_BIT(added.info.kind))) {
-        result = nook_fail(NOOK_E_ARG, "%s: the volume %u is there as %s already", name, volume.id,
-                           nook_volume_kind_name(added.info.kind));
-        nook_volume_free(&added);
-        return result;
-    }
-    return keep_volume(ao, volume.id, &added);
-}
-
-void nook_ao_remove_volume(nook_ao *ao, nook_ao_volume volume)
-{
-    volume_atlas_remove(&ao->atlas, volume.id);
-    brick_pool_remove(&ao->pool, volume.id);
-}
-
 nook_result nook_ao_submit_occluders(nook_ao *ao, const nook_ao_occluder *occluders, uint32_t count)
 {
     if (count > ao->occluder_max)
@@ -171,7 +126,7 @@ nook_result nook_ao_submit_occluders(nook_ao *ao, const nook_ao_occluder *occlud
                          ao->occluder_max);
     for (uint32_t i = 0; i < count; i++) {
         uint32_t volume = occluders[i].volume.id, mesh = occluders[i].mesh.id;
-        if ((volume && !ao_volume_info(ao, volume, EVERY_KIND)) || (mesh && ao_mesh_index(ao, mesh) == UINT32_MAX))
+        if ((volume && !ao_volume_id_is_known(ao, volume)) || (mesh && ao_mesh_index(ao, mesh) == UINT32_MAX))
             return nook_fail(NOOK_E_ARG, "occluder %u of %u: its volume %u or mesh %u has been removed", i, count,
                              volume, mesh);
     }

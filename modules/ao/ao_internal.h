@@ -6,6 +6,7 @@
 #include "modules/ao/nook_ao.h"
 #include "modules/ao/technique.h"
 #include "modules/ao/volume_atlas_internal.h"
+#include <stdbool.h>
 
 #define NOOK_PARAM_STRUCT ao_shared
 #define NOOK_PARAM_FILE "modules/ao/params.def"
@@ -92,7 +93,10 @@ struct nook_ao {
     volume_atlas atlas;
     ao_voxelizer voxelizer;
     brick_pool pool;
-    uint32_t next_volume_id;
+    uint32_t *volume_ids; /**< Those that are known, ascending. */
+    uint32_t volume_id_count, volume_id_capacity, next_volume_id;
+    nook_ao_supply supply; /**< NULL: nobody is asked for volumes. */
+    void *supply_user;
     ao_mesh *meshes;
     uint32_t mesh_count, mesh_capacity, next_mesh_id;
     nook_ao_occluder *occluders; /**< This frame's, as submitted. */
@@ -110,6 +114,7 @@ struct nook_ao {
 };
 
 void ao_slot_release(nook_ao *ao, ao_slot *slot); /**< By its technique's code. */
+uint32_t ao_slot_kinds(const ao_slot *slot);      /**< Of volumes that it marches with its parameters: bits; 0: none. */
 
 /**
  * Makes the textures fit width, height and a scale; keeps them when they do.
@@ -156,8 +161,14 @@ ao_region ao_region_make(const nook_ao *ao, const nook_rectangle *part, uint32_t
  */
 void ao_depth_error(nook_gpu *gpu, nook_ao_texture depth, const double clip_from_view[16], double out_error[2]);
 
-/** A bit for each kind of volume. */
-#define AO_KIND_BIT(kind) (1u << (kind))
+/** Every kind that there is. */
+#define AO_EVERY_KIND (NOOK_VOLUME_BIT(NOOK_VOLUME_BINARY) | NOOK_VOLUME_BIT(NOOK_VOLUME_SURFEL))
+/** Ids of volumes: given once, and known until they are removed, in whatever kinds they are there. */
+nook_result ao_volume_id_take(nook_ao *ao, uint32_t *out_id); /**< @return NOOK_E_MEMORY */
+bool ao_volume_id_is_known(const nook_ao *ao, uint32_t id);
+void ao_volume_id_give(nook_ao *ao, uint32_t id); /**< One that is not known is allowed. */
+/** Asks the host for kinds that submitted volumes lack: nook_ao_set_supply. */
+nook_result ao_ask_for_volumes(nook_ao *ao, uint32_t kinds);
 /** By id, of the first of `kinds` that it has. @return NULL when there is none */
 const nook_volume_info *ao_volume_info(const nook_ao *ao, uint32_t id, uint32_t kinds);
 /**

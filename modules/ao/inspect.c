@@ -8,7 +8,9 @@ enum { TILE_SIZE = 8, LOCATION_COUNT = 0 };
 
 nook_result nook_ao_inspect_volume(nook_ao *ao, nook_ao_volume volume, nook_ao_volume_place *out_place)
 {
-    nook_result result = volume_atlas_flush(&ao->atlas);
+    nook_result result = ao_ask_for_volumes(ao, NOOK_VOLUME_BIT(NOOK_VOLUME_BINARY));
+    if (result == NOOK_OK)
+        result = volume_atlas_flush(&ao->atlas);
     if (result != NOOK_OK)
         return result;
     const atlas_entry *entry = volume_atlas_find(&ao->atlas, volume.id);
@@ -39,8 +41,7 @@ static void dispatch_count(nook_ao *ao, const nook_ao_pass *pass, nook_program p
 
 nook_result nook_ao_count_occluders(nook_ao *ao, const nook_ao_frame *frame, nook_ao_texture out_counts)
 {
-    const ao_work work = { .inputs = NOOK_AO_IN_VOLUMES,
-                           .kinds = AO_KIND_BIT(NOOK_VOLUME_BINARY) | AO_KIND_BIT(NOOK_VOLUME_SURFEL) };
+    const ao_work work = { .inputs = NOOK_AO_IN_VOLUMES, .kinds = AO_EVERY_KIND };
     nook_ao_pass pass;
     nook_program program;
     if (out_counts.native == 0 || out_counts.width != ao->width || out_counts.height != ao->height)

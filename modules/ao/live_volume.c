@@ -61,12 +61,18 @@ nook_result nook_ao_add_live_volume(nook_ao *ao, const char *name, const uint32_
     nook_result result = make_voxelizer(ao);
     if (result != NOOK_OK)
         return result;
+    nook_ao_volume made;
+    result = nook_ao_reserve_volume(ao, &made);
+    if (result != NOOK_OK)
+        return result;
     volume.voxels = calloc((size_t)size[0] * size[1] * size[2], 1);
-    result = volume.voxels ? volume_atlas_add(&ao->atlas, ao->next_volume_id, &volume)
+    result = volume.voxels ? volume_atlas_add(&ao->atlas, made.id, &volume)
                            : nook_fail(NOOK_E_MEMORY, "%s: no memory for a live volume", name);
     nook_volume_free(&volume);
     if (result == NOOK_OK)
-        out_volume->id = ao->next_volume_id++;
+        *out_volume = made;
+    else
+        nook_ao_remove_volume(ao, made);
     return result;
 }
 

@@ -111,6 +111,8 @@ void nook_ao_set_progress(nook_ao *ao, void (*progress)(void *user, double fract
  */
 nook_result nook_ao_add_volume(nook_ao *ao, const char *name, const void *bytes, size_t size,
                                nook_ao_volume *out_volume);
+/** A volume that is there in no kind yet: for nook_ao_extend_volume. @return NOOK_E_MEMORY */
+nook_result nook_ao_reserve_volume(nook_ao *ao, nook_ao_volume *out_volume);
 /**
  * Gives a volume the same body in one more kind. A technique marches the kind that it reads (`volume.kind`), and leaves out what is
  * not there in it.
@@ -118,6 +120,17 @@ nook_result nook_ao_add_volume(nook_ao *ao, const char *name, const void *bytes,
  */
 nook_result nook_ao_extend_volume(nook_ao *ao, nook_ao_volume volume, const char *name, const void *bytes, size_t size);
 void nook_ao_remove_volume(nook_ao *ao, nook_ao_volume volume); /**< In all its kinds. */
+
+/**
+ * Called by a record, before it does anything, that is to march kinds of volumes (bits 1 << nook_volume_kind) in which some of the
+ * submitted ones are not there: time to extend them, so that nobody bakes kinds that are not marched. Each record asks again
+ * while something is missing.
+ * @return what the record returns when it is no NOOK_OK
+ */
+typedef nook_result (*nook_ao_supply)(void *user, uint32_t kinds);
+void nook_ao_set_supply(nook_ao *ao, nook_ao_supply supply, void *user); /**< NULL: nobody is asked, as at first. */
+/** Kinds of volumes that its techniques march with their parameters as they are now: bits 1 << nook_volume_kind. */
+uint32_t nook_ao_volume_kinds(const nook_ao *ao);
 
 enum { NOOK_AO_LIVE_SIDE_MAX = 128 /**< Voxels along a side of a live volume, the empty border included. */ };
 

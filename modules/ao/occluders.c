@@ -73,10 +73,10 @@ static int compose(const nook_volume_info *info, const nook_matrix *view_from_me
 
 const nook_volume_info *ao_volume_info(const nook_ao *ao, uint32_t id, uint32_t kinds)
 {
-    const atlas_entry *voxels = kinds & AO_KIND_BIT(NOOK_VOLUME_BINARY) ? volume_atlas_find(&ao->atlas, id) : NULL;
+    const atlas_entry *voxels = kinds & NOOK_VOLUME_BIT(NOOK_VOLUME_BINARY) ? volume_atlas_find(&ao->atlas, id) : NULL;
     if (voxels)
         return &voxels->info;
-    const pool_entry *bricks = kinds & AO_KIND_BIT(NOOK_VOLUME_SURFEL) ? brick_pool_find(&ao->pool, id) : NULL;
+    const pool_entry *bricks = kinds & NOOK_VOLUME_BIT(NOOK_VOLUME_SURFEL) ? brick_pool_find(&ao->pool, id) : NULL;
     return bricks ? &bricks->info : NULL;
 }
 

@@ -246,9 +246,8 @@ static ao_work work_of(const nook_ao *ao, const ao_slot *slot, const nook_ao_fra
     int direct = scale == 0 && (technique->exact || ao->shared.filter == 0);
     int stepped = scale > 0 && ao->shared.upscale;
     int counting = ao->shared.count * COUNT_SUMS + (frame->fetches.native != 0) * COUNT_PIXELS;
-    uint32_t kind = technique->volume_kind ? technique->volume_kind(slot->params) : NOOK_VOLUME_BINARY;
     return (ao_work){ .inputs = technique->inputs,
-                      .kinds = AO_KIND_BIT(kind),
+                      .kinds = ao_slot_kinds(slot),
                       .scale = scale,
                       .passes = direct ? 0 : 1 + stepped,
                       .counting = technique->exact ? 0 : counting /* truth reads nothing of the kind */ };
@@ -270,7 +269,9 @@ nook_result nook_ao_record(nook_ao *ao, const nook_ao_frame *frame)
     if (ao->slot_count == 0)
         return nook_fail(NOOK_E_ARG, "nook_ao_record: add a technique first");
     ao_work work = work_of(ao, slot, frame);
-    nook_result result = ao_begin(ao, frame, &work, &pass);
+    nook_result result = ao_ask_for_volumes(ao, work.kinds);
+    if (result == NOOK_OK)
+        result = ao_begin(ao, frame, &work, &pass);
     if (result != NOOK_OK)
         return result;
     result = trace(ao, slot, &pass);
@@ -304,7 +305,7 @@ void nook_ao_get_statistics(nook_ao *ao, nook_ao_statistics *out_statistics)
     ao_counts counted;
     *out_statistics = ao->statistics;
     out_statistics->volume_bytes =
-        ao->kinds & AO_KIND_BIT(NOOK_VOLUME_SURFEL) ? brick_pool_bytes(&ao->pool) : volume_atlas_bytes(&ao->atlas);
+        ao->kinds & NOOK_VOLUME_BIT(NOOK_VOLUME_SURFEL) ? brick_pool_bytes(&ao->pool) : volume_atlas_bytes(&ao->atlas);
     out_statistics->texture_bytes = ao_targets_bytes(&ao->targets, ao->scale);
     out_statistics->fetches_per_pixel = 0.0;
     out_statistics->outside = 0;

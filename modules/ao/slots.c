@@ -116,6 +116,22 @@ nook_result nook_ao_add_technique(nook_ao *ao, const struct nook_ao_technique *t
     return result;
 }
 
+uint32_t ao_slot_kinds(const ao_slot *slot)
+{
+    const nook_ao_technique *technique = slot->technique;
+    if (!(technique->inputs & NOOK_AO_IN_VOLUMES))
+        return 0;
+    return NOOK_VOLUME_BIT(technique->volume_kind ? technique->volume_kind(slot->params) : NOOK_VOLUME_BINARY);
+}
+
+uint32_t nook_ao_volume_kinds(const nook_ao *ao)
+{
+    uint32_t kinds = 0;
+    for (uint32_t i = 0; i < ao->slot_count; i++)
+        kinds |= ao_slot_kinds(&ao->slots[i]);
+    return kinds;
+}
+
 /* ---- replacing ---- */
 
 /** @return its index, or slot_count */

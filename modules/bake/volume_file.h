@@ -18,6 +18,10 @@ typedef enum nook_volume_kind {
     NOOK_VOLUME_SURFEL = 2, /**< Planes inside of voxels, in bricks: docs/surfel_bricks.md. */
 } nook_volume_kind;
 
+enum { NOOK_VOLUME_KINDS = 3 /**< Their numbers are below; those that are none have no name. */ };
+/** A set of kinds is bits. */
+#define NOOK_VOLUME_BIT(kind) (1u << (kind))
+
 /** Kinds by name: "binary", "surfel". @return NULL for a number that is none */
 const char *nook_volume_kind_name(nook_volume_kind kind);
 

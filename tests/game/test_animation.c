@@ -116,7 +116,7 @@ static void test_what_stands_in_a_pose_has_the_volume_of_that_pose(void **state)
     nook_scene_volumes volumes = bake(scene, &log);
     assert_int_equal(volumes.volume_count, 1);
     /* 1.1 m wide and 2.1 m high, where the arm at rest is 0.2 m and 2 m. */
-    const nook_volume_info *info = &volumes.volumes[0].bake.info;
+    const nook_volume_info *info = &volumes.volumes[0].bakes[NOOK_VOLUME_BINARY].info;
     assert_true(fabs(info->voxel_size * (info->width - 2.0) - 1.1) < 2.0 * info->voxel_size);
     assert_true(fabs(info->voxel_size * (info->height - 2.0) - 2.1) < 2.0 * info->voxel_size);
     nook_volumes_free(&volumes);

@@ -77,12 +77,32 @@ static void test_bake_fills_the_cache_and_finds_it_again(void **state)
     prepare(&b);
     char *argv[] = { "bake", b.scene, "--cache", b.cache, "--resolution", "20", "--threads", "1", NULL };
     assert_int_equal(run(&b, 8, argv), NOOK_EXIT_OK);
-    assert_int_equal(count_cache(&b, false), 2);
+    assert_int_equal(count_cache(&b, false), 1);
     assert_null(strstr(b.log.text, "from the cache"));
     assert_int_equal(run(&b, 8, argv), NOOK_EXIT_OK);
-    assert_int_equal(count_cache(&b, false), 2);
+    assert_int_equal(count_cache(&b, false), 1);
     assert_non_null(strstr(b.log.text, "20 voxels a side"));
     assert_non_null(strstr(b.log.text, "from the cache"));
+    clear(&b);
+}
+
+static void test_bake_makes_the_kinds_that_are_asked_for(void **state)
+{
+    (void)state;
+    bench b;
+    prepare(&b);
+    char kinds[32] = "surfel", *argv[] = { "bake", b.scene, "--cache", b.cache, "--kinds", kinds, NULL };
+    assert_int_equal(run(&b, 6, argv), NOOK_EXIT_OK);
+    assert_int_equal(count_cache(&b, false), 1);
+    snprintf(kinds, sizeof kinds, "binary,surfel");
+    assert_int_equal(run(&b, 6, argv), NOOK_EXIT_OK);
+    assert_int_equal(count_cache(&b, false), 2);
+    assert_null(strstr(b.log.text, "from the cache")); /* not all of it */
+    const char *wrong[] = { "binary,voxel", "binaries", "bin", ",", "" };
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        snprintf(kinds, sizeof kinds, "%s", wrong[i]);
+        assert_int_equal(run(&b, 6, argv), NOOK_EXIT_USAGE);
+    }
     clear(&b);
 }
 
@@ -168,6 +188,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_bake_fills_the_cache_and_finds_it_again),
+        cmocka_unit_test(test_bake_makes_the_kinds_that_are_asked_for),
         cmocka_unit_test(test_bake_fails_when_its_volumes_cannot_be_kept),
         cmocka_unit_test(test_bake_fails_when_a_directory_stands_where_a_volume_belongs),
         cmocka_unit_test(test_scene_without_area_has_nothing_to_bake),

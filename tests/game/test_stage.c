@@ -87,6 +87,59 @@ static void test_a_stage_filled_again_marches_the_new_volumes_and_frees_the_old(
     assert_true(mean[0] == mean[2]);
 }
 
+static void choose_kind(fixture *f, const char *kind)
+{
+    assert_int_equal(nook_ao_parse_param(f->stage.ao, "volume.kind", kind), NOOK_OK);
+}
+
+static void test_kinds_of_volumes_are_baked_when_they_are_marched_and_no_others(void **state)
+{
+    fixture *f = *state;
+    uint64_t bytes;
+    nook_game_world *world = f->stage.world;
+    assert_int_equal(nook_game_world_kinds(world), NOOK_VOLUME_BIT(NOOK_VOLUME_BINARY));
+    double binary = mean_visibility(f, &bytes);
+    assert_int_equal(nook_game_world_kinds(world), NOOK_VOLUME_BIT(NOOK_VOLUME_BINARY));
+    choose_kind(f, "surfel");
+    double surfel = mean_visibility(f, &bytes);
+    assert_true(surfel < 1.0 && surfel != binary && bytes > 0);
+    uint32_t both = NOOK_VOLUME_BIT(NOOK_VOLUME_BINARY) | NOOK_VOLUME_BIT(NOOK_VOLUME_SURFEL), count;
+    assert_int_equal(nook_game_world_kinds(world), both);
+    const nook_world_volume *volumes = nook_game_world_volumes(world, &count);
+    for (uint32_t i = 0; i < count; i++)
+        assert_true(nook_world_volume_sum(&volumes[i], both).bytes > nook_world_volume_sum(&volumes[i], 1).bytes);
+    choose_kind(f, "binary");
+    assert_true(mean_visibility(f, &bytes) == binary);
+
+    const nook_game_world_desc desc = { 16, 0.5, NULL };
+    choose_kind(f, "surfel");
+    assert_int_equal(nook_stage_fill(&f->stage, &desc), NOOK_OK); /* filled with what is marched now */
+    assert_int_equal(nook_game_world_kinds(f->stage.world), NOOK_VOLUME_BIT(NOOK_VOLUME_SURFEL));
+    assert_true(mean_visibility(f, &bytes) == surfel);
+}
+
+static nook_result refuse(void *user, uint32_t kinds)
+{
+    *(uint32_t *)user = kinds;
+    return NOOK_E_MEMORY;
+}
+
+static void test_a_record_fails_when_volumes_that_it_marches_cannot_be_had(void **state)
+{
+    fixture *f = *state;
+    uint32_t asked = 0;
+    uint64_t bytes;
+    mean_visibility(f, &bytes);
+    nook_ao_set_supply(f->stage.ao, refuse, &asked);
+    assert_int_equal(nook_stage_occlude(&f->stage), NOOK_OK);
+    assert_int_equal(asked, 0); /* nothing is missing */
+    choose_kind(f, "surfel");
+    assert_int_equal(nook_stage_occlude(&f->stage), NOOK_E_MEMORY);
+    assert_int_equal(asked, NOOK_VOLUME_BIT(NOOK_VOLUME_SURFEL));
+    nook_ao_set_supply(f->stage.ao, NULL, NULL);
+    assert_int_equal(nook_stage_occlude(&f->stage), NOOK_OK); /* left out, when nobody can be asked */
+}
+
 static void test_filling_again_keeps_the_exposure(void **state)
 {
     fixture *f = *state;
@@ -101,6 +154,10 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_an_error_of_gl_fails_the_frame_it_was_raised_in, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_a_stage_filled_again_marches_the_new_volumes_and_frees_the_old, set_up,
+                                        tear_down),
+        cmocka_unit_test_setup_teardown(test_kinds_of_volumes_are_baked_when_they_are_marched_and_no_others, set_up,
+                                        tear_down),
+        cmocka_unit_test_setup_teardown(test_a_record_fails_when_volumes_that_it_marches_cannot_be_had, set_up,
                                         tear_down),
         cmocka_unit_test_setup_teardown(test_filling_again_keeps_the_exposure, set_up, tear_down),
     };

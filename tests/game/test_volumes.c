@@ -136,12 +136,12 @@ static void test_static_nodes_become_one_volume_in_world_space(void **state)
     const nook_scene_volume *volume = &v.volumes[o->volume];
     assert_string_equal(volume->name, "static");
     assert_int_equal(volume->index_count, 72);
-    assert_int_equal(volume->bake.info.width, 86);
-    assert_int_equal(volume->bake.info.height, 6);
+    assert_int_equal(nook_scene_volume_bake(volume)->info.width, 86);
+    assert_int_equal(nook_scene_volume_bake(volume)->info.height, 6);
     /* Two shells: 4x4x4 at the box's end, 5x4x4 at its start, whose far face lies on a boundary and takes the next layer. */
-    assert_int_equal(volume->bake.info.occupied, (64 - 8) + (80 - 12));
+    assert_int_equal(nook_scene_volume_bake(volume)->info.occupied, (64 - 8) + (80 - 12));
     double corner[3];
-    nook_matrix_apply_point(&o->world_from_mesh, volume->bake.info.origin, corner);
+    nook_matrix_apply_point(&o->world_from_mesh, nook_scene_volume_bake(volume)->info.origin, corner);
     assert_true(fabs(corner[0] - (1e8 - 10.75)) < 1e-6);
     assert_true(fabs(corner[1] - (1e8 - 0.75)) < 1e-6);
     nook_volumes_free(&v);
@@ -236,7 +236,7 @@ static void test_largest_instance_sets_the_resolution(void **state)
     s->nodes[2].world_from_local = scale;
     nook_scene_volumes v = bake(s, 256, 2.0);
     assert_int_equal(v.volumes[1].resolution, 96);
-    assert_int_equal(v.volumes[1].bake.info.width, 98);
+    assert_int_equal(v.volumes[1].bakes[NOOK_VOLUME_BINARY].info.width, 98);
     assert_int_equal(v.volumes[0].resolution, 256);
     nook_volumes_free(&v);
     free(s);
@@ -279,7 +279,7 @@ static void watch(void *user, const nook_scene_volume *done, uint32_t index, uin
 {
     watched *w = user;
     assert_int_equal(index, w->calls++);
-    assert_non_null(done->bake.bytes);
+    assert_non_null(nook_scene_volume_bake(done));
     w->count = count;
 }
 

@@ -206,7 +206,9 @@ static void test_changed_model_is_shown_and_darkens_with_a_new_volume(void **sta
     reload(self, NULL);
     draw(self, NOOK_VIEW_VISIBILITY, after);
     assert_true(same(before, after));
-    assert_true(nook_game_world_volumes(self->stage.world, &count)->cached); /* what is as it was is not baked again */
+    assert_true(nook_game_world_volumes(self->stage.world, &count)
+                    ->bakes[NOOK_VOLUME_BINARY]
+                    .cached); /* what is as it was is not baked again */
 }
 
 static void test_broken_model_keeps_the_picture_and_says_why(void **state)
