@@ -135,6 +135,8 @@ static nook_result choose_reference(const nook_truth *truth, nook_stage *stage)
     nook_result result = nook_ao_set_technique(stage->ao, "reference");
     if (result == NOOK_OK)
         result = nook_ao_set_param(stage->ao, "reference.rays", truth->batch_rays);
+    if (result == NOOK_OK)
+        result = nook_ao_parse_param(stage->ao, "reference.sampling", "pixel");
     return result == NOOK_OK ? nook_ao_parse_param(stage->ao, "reference.sees", truth->screen ? "screen" : "scene")
                              : result;
 }

@@ -243,7 +243,8 @@ static ao_work work_of(const nook_ao *ao, const ao_slot *slot, const nook_ao_fra
 {
     const nook_ao_technique *technique = slot->technique;
     uint32_t scale = trace_scale(ao, technique);
-    int direct = scale == 0 && (technique->exact || ao->shared.filter == 0);
+    int as_it_is = technique->exact && !(technique->is_filtered && technique->is_filtered(slot->params));
+    int direct = scale == 0 && (as_it_is || ao->shared.filter == 0);
     int stepped = scale > 0 && ao->shared.upscale;
     int counting = ao->shared.count * COUNT_SUMS + (frame->fetches.native != 0) * COUNT_PIXELS;
     return (ao_work){ .inputs = technique->inputs,

@@ -52,6 +52,12 @@ void nook_cosine_direction(const float point[2], float out_direction[3])
     out_direction[2] = sqrtf(1.0f - point[0]);
 }
 
+uint32_t nook_direction_block(uint32_t x, uint32_t y)
+{
+    uint32_t odd = x ^ y;
+    return (odd & 1) << 3 | (y & 1) << 2 | (odd & 2) | (y >> 1 & 1);
+}
+
 void nook_fill_directions(uint32_t rays, uint32_t seed, float *out)
 {
     for (uint32_t i = 0; i < rays * NOOK_DIRECTION_BLOCKS; i++) {

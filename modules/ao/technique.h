@@ -14,7 +14,7 @@
 extern "C" {
 #endif
 
-#define NOOK_AO_TECHNIQUE_VERSION 4
+#define NOOK_AO_TECHNIQUE_VERSION 5
 
 /** Triangles for the reference, in mesh space. */
 typedef struct nook_ao_mesh_view {
@@ -95,7 +95,9 @@ typedef struct nook_ao_technique {
     uint32_t inputs;     /**< NOOK_AO_IN_*, beyond depth and normal, which all have. */
     /** NOOK_AO_IN_VOLUMES: the kind of volume that it marches with these parameters, a nook_volume_kind. NULL: binary. */
     uint32_t (*volume_kind)(const void *params);
-    uint32_t exact; /**< 1: truth; always at full resolution, never filtered. */
+    uint32_t exact; /**< 1: truth; always at full resolution, and not filtered, */
+    uint32_t (*is_filtered)(
+        const void *params); /**< unless this says so of an exact one with these parameters. May be NULL. */
     const nook_param *params;
     uint32_t param_count;
     uint32_t params_size;   /**< Bytes of the struct made from params.def. */

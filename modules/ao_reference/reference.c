@@ -1,6 +1,7 @@
 #include "modules/ao_reference/reference.h"
 #include "engine/core/jobs.h"
 #include "engine/core/log.h"
+#include "modules/ao/sampling.h"
 #include "modules/ao_reference/depth_mesh_internal.h"
 #include "modules/trace/pixel_rays.h"
 #include <stdlib.h>
@@ -55,7 +56,32 @@ static void write_wanted(const nook_ao_pass *pass, const float *visibility)
     gl->PixelStorei(GL_UNPACK_ROW_LENGTH, 0);
 }
 
-enum { SEES_SCENE, SEES_SCREEN }; /* the choices of reference.sees */
+enum { SEES_SCENE, SEES_SCREEN };       /* the choices of reference.sees */
+enum { SAMPLING_PIXEL, SAMPLING_TILE }; /* and of reference.sampling */
+
+static uint32_t is_filtered(const void *params)
+{
+    return ((const reference_params *)params)->sampling == SAMPLING_TILE;
+}
+
+/** Bytes a ray takes: a direction for each block, or a point. */
+static size_t bytes_per_ray(const reference_params *params)
+{
+    return is_filtered(params) ? NOOK_DIRECTION_BLOCKS * 4 * sizeof(float) : sizeof(nook_ray_point);
+}
+
+/** Points, or directions in their place. */
+static void fill_rays(const reference_params *params, void *memory, nook_trace_work *out)
+{
+    out->count = (uint32_t)params->rays;
+    if (is_filtered(params)) {
+        nook_fill_directions(out->count, out->seed, memory);
+        out->directions = (const float(*)[4])memory;
+    } else {
+        nook_ray_points_fill(memory, out->count);
+        out->points = memory;
+    }
+}
 
 static nook_result show_screen(nook_tracer *t, const nook_ao_pass *pass, const float *depth, const uint16_t *normal)
 {
@@ -68,13 +94,13 @@ static nook_result show_screen(nook_tracer *t, const nook_ao_pass *pass, const f
     return result;
 }
 
-/** Everything the trace needs in one block: points, depth, visibility, normals. */
+/** Everything the trace needs in one block: rays, depth, visibility, normals. */
 static nook_result trace_with_memory(const nook_ao_pass *pass, const reference_params *params, nook_tracer *t,
                                      void *memory)
 {
     size_t pixels = (size_t)pass->width * pass->height;
-    nook_ray_point *points = memory;
-    float *depth = (float *)(void *)(points + params->rays), *visibility = depth + pixels;
+    float *depth = (float *)(void *)((char *)memory + (size_t)params->rays * bytes_per_ray(params));
+    float *visibility = depth + pixels;
     uint16_t *normal = (uint16_t *)(void *)(visibility + pixels);
     nook_texture_read(pass->gpu, pass->depth, GL_RED, GL_FLOAT, depth, pixels * sizeof *depth);
     nook_texture_read(pass->gpu, pass->normal, GL_RG, GL_UNSIGNED_SHORT, normal, pixels * 2 * sizeof *normal);
@@ -82,16 +108,10 @@ static nook_result trace_with_memory(const nook_ao_pass *pass, const reference_p
         params->sees == SEES_SCREEN ? show_screen(t, pass, depth, normal) : nook_tracer_update(t, pass);
     if (result != NOOK_OK)
         return result;
-    nook_ray_points_fill(points, (uint32_t)params->rays);
     image_work work = { .pass = pass,
-                        .rays = { .pass = pass,
-                                  .triangles = t,
-                                  .depth = depth,
-                                  .normal = normal,
-                                  .points = points,
-                                  .count = (uint32_t)params->rays,
-                                  .seed = pass->seed },
+                        .rays = { .pass = pass, .triangles = t, .depth = depth, .normal = normal, .seed = pass->seed },
                         .visibility = visibility };
+    fill_rays(params, memory, &work.rays);
     trace_image(&work, (unsigned)params->threads);
     write_wanted(pass, visibility);
     return NOOK_OK;
@@ -117,7 +137,7 @@ static nook_result record(void *state, const void *params, const nook_ao_pass *p
     reference_state *s = state;
     const reference_params *p = params;
     size_t pixels = (size_t)pass->width * pass->height;
-    void *memory = malloc((size_t)p->rays * sizeof(nook_ray_point) + 3 * pixels * sizeof(float));
+    void *memory = malloc((size_t)p->rays * bytes_per_ray(p) + 3 * pixels * sizeof(float));
     if (!memory)
         return nook_fail(NOOK_E_MEMORY, "reference: no memory for %ux%u pixels", pass->width, pass->height);
     nook_result result = trace_with_memory(pass, p, s->tracer, memory);
@@ -131,6 +151,7 @@ const nook_ao_technique nook_ao_reference_technique = {
     .summary = "Rays cast against the triangles on the CPU: the truth the others are measured against",
     .inputs = NOOK_AO_IN_MESHES,
     .exact = 1,
+    .is_filtered = is_filtered,
     .params = param_table,
     .param_count = NOOK_COUNT(param_table),
     .params_size = sizeof(reference_params),

@@ -2,9 +2,11 @@
 #include "engine/core/surface.h"
 #include "engine/core/vector.h"
 #include "modules/ao/falloff.h"
+#include "modules/ao/sampling.h"
 #include "modules/trace/pixel.h"
 #include <cglm/cglm.h>
 #include <math.h>
+#include <string.h>
 
 /**
  * Columns: two tangents and the normal (Duff et al., "Building an Orthonormal Basis, Revisited", 2017). In float: the
@@ -39,12 +41,15 @@ typedef struct pixel_rays {
     float origin[3];
     mat3 view_from_local;
     nook_ray_shift shift;
+    const float (*directions)[4]; /**< Around +Z, or NULL. */
 } pixel_rays;
 
 static pixel_rays rays_of_pixel(const nook_trace_work *work, uint32_t x, uint32_t y, double depth,
                                 const uint16_t code[2])
 {
     pixel_rays rays = { .shift = nook_ray_shift_of_pixel(x, y, work->seed) };
+    if (work->directions)
+        rays.directions = work->directions + (size_t)nook_direction_block(x, y) * work->count;
     double normal[3];
     nook_pixel_normal(code, normal);
     tangent_frame((vec3){ (float)normal[0], (float)normal[1], (float)normal[2] }, rays.view_from_local);
@@ -53,11 +58,15 @@ static pixel_rays rays_of_pixel(const nook_trace_work *work, uint32_t x, uint32_
 }
 
 /** Directions of a packet. @param count  at most NOOK_TRACER_PACKET */
-static void aim(pixel_rays *rays, const nook_ray_point *points, uint32_t count, float directions[3][NOOK_TRACER_PACKET])
+static void aim(const nook_trace_work *work, pixel_rays *rays, uint32_t first, uint32_t count,
+                float directions[3][NOOK_TRACER_PACKET])
 {
     for (uint32_t i = 0; i < count; i++) {
         vec3 local, direction;
-        nook_ray_point_direction(&points[i], &rays->shift, local);
+        if (rays->directions)
+            memcpy(local, rays->directions[first + i], sizeof local);
+        else
+            nook_ray_point_direction(&work->points[first + i], &rays->shift, local);
         glm_mat3_mulv(rays->view_from_local, local, direction);
         for (int axis = 0; axis < 3; axis++)
             directions[axis][i] = direction[axis];
@@ -70,12 +79,12 @@ static double rho(const nook_ao_pass *pass, float distance)
 }
 
 /** Sum of rho over a packet. @param count  at most NOOK_TRACER_PACKET */
-static double trace_packet(const nook_trace_work *work, pixel_rays *rays, const nook_ray_point *points, uint32_t count)
+static double trace_packet(const nook_trace_work *work, pixel_rays *rays, uint32_t first, uint32_t count)
 {
     const nook_ao_pass *pass = work->pass;
     float directions[3][NOOK_TRACER_PACKET] = { { 0.0f } }, distances[NOOK_TRACER_PACKET];
     double sum = 0.0;
-    aim(rays, points, count, directions);
+    aim(work, rays, first, count, directions);
     nook_tracer_distances(work->triangles, rays->origin, (const float(*)[NOOK_TRACER_PACKET])directions, count,
                           (float)pass->r_max, pass->falloff == NOOK_FALLOFF_HARD, distances);
     for (uint32_t i = 0; i < count; i++)
@@ -93,7 +102,7 @@ static double trace_pixel(const nook_trace_work *work, uint32_t x, uint32_t y, d
     pixel_rays rays = rays_of_pixel(work, x, y, depth, code);
     double sum = 0.0;
     for (uint32_t first = 0; first < work->count; first += NOOK_TRACER_PACKET)
-        sum += trace_packet(work, &rays, work->points + first, packet_at(work, first));
+        sum += trace_packet(work, &rays, first, packet_at(work, first));
     return 1.0 - sum / work->count;
 }
 
@@ -116,7 +125,7 @@ double nook_trace_shares(const nook_trace_work *work, uint32_t x, uint32_t y, do
     for (uint32_t first = 0; first < work->count; first += NOOK_TRACER_PACKET) {
         float directions[3][NOOK_TRACER_PACKET] = { { 0.0f } }, distances[NOOK_TRACER_PACKET];
         uint32_t instances[NOOK_TRACER_PACKET], count = packet_at(work, first);
-        aim(&rays, work->points + first, count, directions);
+        aim(work, &rays, first, count, directions);
         nook_tracer_hits(work->triangles, rays.origin, (const float(*)[NOOK_TRACER_PACKET])directions, count,
                          (float)work->pass->r_max, distances, instances);
         for (uint32_t i = 0; i < count; i++) {

@@ -14,7 +14,8 @@ typedef struct nook_trace_work {
     const nook_tracer *triangles;
     const float *depth;           /**< width * height. */
     const uint16_t *normal;       /**< RG pairs. */
-    const nook_ray_point *points; /**< `count`, by their place. */
+    const nook_ray_point *points; /**< `count`, by their place; shifted by pixel and seed. */
+    const float (*directions)[4]; /**< Not NULL: these instead, as nook_fill_directions makes them. */
     uint32_t count;               /**< Rays of each pixel. */
     uint32_t seed;
 } nook_trace_work;

@@ -1,10 +1,10 @@
 #pragma once
 // The pixels of a 4 x 4 tile share the work: each has one of 16 blocks of it, so that the mean over a tile (ao.filter: tile) is
-// that of 16 times as many samples. Neighbours get blocks that are far apart in the sequence.
+// that of 16 times as many samples. Neighbours get blocks that are far apart in the sequence: Bayer's 4x4 matrix (1973).
 const int BLOCKS = 16;
-const int BLOCK[BLOCKS] = int[BLOCKS](0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5);
 
-int block_of(ivec2 pixel)
+int block_of(ivec2 pixel) // nook_direction_block() of modules/ao/sampling.h
 {
-    return BLOCK[(pixel.y & 3) * 4 + (pixel.x & 3)];
+    int odd = pixel.x ^ pixel.y;
+    return (odd & 1) << 3 | (pixel.y & 1) << 2 | (odd & 2) | (pixel.y >> 1 & 1);
 }
