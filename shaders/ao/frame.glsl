@@ -26,10 +26,27 @@ layout(std140, binding = 0) uniform Frame {
     vec2 texel, full_texel;      // 1 / size, 1 / full_size
 } frame;
 
+const int GROUP_HEIGHT = 8; // pixels, of every trace's work groups
+
+// Which row of groups a work group traces: every fourth one, then those after them, ... llvmpipe gives each of its threads one run of
+// work groups, and where the picture's upper half is less work than its lower one, a thread would wait for the other.
+int group_row()
+{
+    int rows = int(gl_NumWorkGroups.y), row = int(gl_WorkGroupID.y);
+    int second = (rows + 3) / 4, third = second + (rows + 2) / 4, fourth = third + (rows + 1) / 4; // where each kind of rows begins
+    if (row >= fourth)
+        return 4 * (row - fourth) + 3;
+    if (row >= third)
+        return 4 * (row - third) + 2;
+    return row >= second ? 4 * (row - second) + 1 : 4 * row;
+}
+
 // The trace pixel of this invocation; it may lie outside of what is wanted.
 ivec2 invocation_pixel()
 {
-    return frame.origin + ivec2(gl_GlobalInvocationID.xy);
+    ivec2 place = ivec2(gl_GlobalInvocationID.xy);
+    place.y += (group_row() - int(gl_WorkGroupID.y)) * GROUP_HEIGHT;
+    return frame.origin + place;
 }
 
 bool is_wanted(ivec2 pixel)

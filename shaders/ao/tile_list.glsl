@@ -24,7 +24,7 @@ bool tile_begin(float depth)
     }
     barrier();
     float nearest = uintBitsToFloat(tile_depth_min), farthest = uintBitsToFloat(tile_depth_max);
-    ivec2 first = frame.origin + ivec2(gl_WorkGroupID.xy) * TILE_SIZE, last = min(first + TILE_SIZE - 1, frame.size - 1);
+    ivec2 first = frame.origin + ivec2(gl_WorkGroupID.x, group_row()) * TILE_SIZE, last = min(first + TILE_SIZE - 1, frame.size - 1);
     vec3 a = full_ray(vec2(full_pixel(first))), b = full_ray(vec2(full_pixel(last)));
     tile_box_min = min(min(a * nearest, a * farthest), min(b * nearest, b * farthest));
     tile_box_max = max(max(a * nearest, a * farthest), max(b * nearest, b * farthest));
