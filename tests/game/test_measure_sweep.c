@@ -144,7 +144,7 @@ static void test_more_combinations_than_anyone_measures_are_refused(void **state
 static void test_shipped_suites_are_read(void **state)
 {
     (void)state;
-    static const char *const suites[] = { "quick", "full" };
+    static const char *const suites[] = { "quick", "full", "front", "falloff" };
     const char *root = getenv("NOOK_ROOT");
     for (size_t i = 0; i < NOOK_COUNT(suites); i++) {
         char path[4096];
