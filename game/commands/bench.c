@@ -7,6 +7,8 @@
 static const nook_command benches[] = {
     { "ecs", "create, change, walk and destroy entities", nook_bench_run_ecs },
     { "frame", "where the milliseconds of a frame go, with bodies that move", nook_bench_run_frame },
+    { "occluders", "occlusion by 1 to 4096 volumes, apart and piled up, and by one that holds them all",
+      nook_bench_run_occluders },
     { "reload", "how soon a saved shader is in the picture", nook_bench_run_reload },
     { "physics", "a step of a level's rigid bodies: asleep, awake, thrown about; rays", nook_bench_run_physics },
 };
