@@ -22,7 +22,7 @@ typedef struct occluders_options {
     const char *setting;
     nook_option_size size;
     nook_backend backend;
-    int32_t frames;
+    int32_t frames, most;
     bool cpu;
 } occluders_options;
 
@@ -140,7 +140,7 @@ static nook_result time_apart(occluders_bench *b, const nook_fixture_mesh *box)
     double first = 0.0;
     nook_result result = NOOK_OK;
     printf("apart\n  %9s %10s %10s %12s %12s\n", "occluders", "ms", "to 1", "one volume", "each to one");
-    for (uint32_t side = 1; side * side <= COUNT_MAX && result == NOOK_OK; side *= 2) {
+    for (uint32_t side = 1; side * side <= (uint32_t)b->options->most && result == NOOK_OK; side *= 2) {
         double each = 0.0, one = 0.0;
         draw(b->view, side, box);
         result = add_each(b->view, side, 0, box);
@@ -164,7 +164,8 @@ static nook_result time_piled(occluders_bench *b, const nook_fixture_mesh *box)
     nook_result result = NOOK_OK;
     draw(b->view, 1, box);
     printf("piled up in one place\n  %9s %10s %10s\n", "occluders", "ms", "to 1");
-    for (uint32_t count = 1; count <= PILE_MAX && result == NOOK_OK; count *= 2) {
+    for (uint32_t count = 1; count <= PILE_MAX && count <= (uint32_t)b->options->most && result == NOOK_OK;
+         count *= 2) {
         double ms = 0.0;
         result = add_each(b->view, 1, count, box);
         if (result == NOOK_OK)
@@ -215,9 +216,10 @@ static nook_result run(void *user, nook_gpu *gpu, bool *out_hold)
 
 static bool read_options(int argc, char **argv, occluders_options *out, int *out_exit_code)
 {
-    *out = (occluders_options){ .setting = "volume", .size = { 512, 512 }, .frames = 9 };
+    *out = (occluders_options){ .setting = "volume", .size = { 512, 512 }, .frames = 9, .most = COUNT_MAX };
     const nook_option options[] = {
         nook_option_row_size(&out->size, "of the picture in pixels; default 512x512"),
+        nook_option_row_int("most", &out->most, 1, COUNT_MAX, "occluders; default 4096"),
         nook_option_row_int("frames", &out->frames, 1, FRAMES_MAX, "timed of each row; default 9"),
         nook_option_row_flag(
             "cpu", &out->cpu,

@@ -82,6 +82,23 @@ static void test_bench_times_the_physics_of_a_level(void **state)
     assert_non_null(strstr(log.text, "no_such.level"));
 }
 
+static void test_bench_times_few_occluders_and_refuses_settings_that_there_are_not(void **state)
+{
+    (void)state;
+    const nook_app app = { .root = test_gpu_root() };
+    char *arguments[] = { "bench",     "occluders", "volume kind=surfel rays=1",
+                          "--most",    "4",         "--frames",
+                          "1",         "--size",    "16x16",
+                          "--backend", "osmesa",    NULL };
+    assert_int_equal(nook_command_bench(&app, 11, arguments), NOOK_EXIT_OK);
+    nook_log_capture log;
+    nook_log_capture_begin(&log);
+    assert_int_equal(nook_command_bench(&app, 3, (char *[]){ "bench", "occluders", "volume ray=1", NULL }),
+                     NOOK_EXIT_USAGE);
+    nook_log_capture_end();
+    assert_non_null(strstr(log.text, "rays"));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -89,6 +106,7 @@ int main(void)
         cmocka_unit_test(test_bench_refuses_what_it_cannot_time),
         cmocka_unit_test(test_bench_reload_sees_every_file_it_saves),
         cmocka_unit_test(test_bench_times_the_physics_of_a_level),
+        cmocka_unit_test(test_bench_times_few_occluders_and_refuses_settings_that_there_are_not),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
