@@ -253,8 +253,7 @@ int nook_bench_run_occluders(const nook_app *app, int argc, char **argv)
     int exit_code;
     if (!read_options(argc, argv, &options, &exit_code))
         return exit_code;
-    static occluders_bench bench;
-    bench = (occluders_bench){ .options = &options };
+    occluders_bench bench = { .options = &options };
     if (nook_setting_parse("bench occluders", options.setting, &bench.setting) != NOOK_OK)
         return NOOK_EXIT_USAGE;
     return nook_findings_with_device(app, options.backend, NULL, run, &bench);
