@@ -3,7 +3,6 @@
 #include "game/extremes/buffer_internal.h"
 #include "game/extremes/edge_pictures.h"
 #include "game/extremes/groups.h"
-#include "game/techniques.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -32,14 +31,13 @@ nook_result nook_buffer_take(const nook_extremes *extremes, const nook_edge_scen
 /** Says what each technique loses: "volume 0.0003, ssao 0.0001", and keeps the worst. */
 static void compare_each(const nook_edge_pictures *best, const nook_edge_pictures *got, nook_extreme_found *found)
 {
-    size_t count, used = 0;
-    const nook_ao_technique *const *techniques = nook_techniques(&count);
+    size_t used = 0;
     char each[sizeof found->where] = "";
     double worst = 0.0;
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < best->count; i++) {
         double rms =
             nook_edge_rms(best->visibility + i * best->pixels, got->visibility + i * got->pixels, best->pixels);
-        int size = snprintf(each + used, sizeof each - used, "%s%s %.1e", i ? ", " : "", techniques[i]->name, rms);
+        int size = snprintf(each + used, sizeof each - used, "%s%s %.1e", i ? ", " : "", best->estimators[i].name, rms);
         used += size > 0 && used + (size_t)size < sizeof each ? (size_t)size : 0;
         worst = rms <= worst ? worst : rms; /* NaN is kept */
     }

@@ -1,7 +1,6 @@
 /* Depths that a host may give, and those that it should not; images of any size. */
 #include "game/extremes/edge_pictures.h"
 #include "game/extremes/surface_internal.h"
-#include "game/techniques.h"
 #include <math.h>
 #include <stdio.h>
 
@@ -86,8 +85,8 @@ static nook_result look_at_nothing(nook_edge_scene *scene, const char *technique
 
 nook_result nook_surface_run_background(const nook_extremes *extremes, nook_extreme_found *out_found)
 {
-    size_t count;
-    const nook_ao_technique *const *techniques = nook_techniques(&count);
+    nook_edge_estimator estimators[NOOK_EDGE_ESTIMATORS_MAX];
+    const size_t count = nook_edge_estimators(estimators);
     nook_edge_scene scene;
     const nook_edge_scene_desc desc = { .width = 24, .height = 24, .resolution = 24 };
     nook_result result = nook_edge_scene_make(extremes, &desc, &scene);
@@ -95,7 +94,7 @@ nook_result nook_surface_run_background(const nook_extremes *extremes, nook_extr
     for (size_t i = 0; result == NOOK_OK && i < count * NOOK_FIXTURE_SCALES; i++) {
         result = nook_ao_parse_param(scene.view->ao, "ao.scale", nook_fixture_scales[i % NOOK_FIXTURE_SCALES]);
         if (result == NOOK_OK)
-            result = look_at_nothing(&scene, techniques[i / NOOK_FIXTURE_SCALES]->name, out_found);
+            result = look_at_nothing(&scene, estimators[i / NOOK_FIXTURE_SCALES].name, out_found);
     }
     nook_edge_scene_free(&scene);
     return result;

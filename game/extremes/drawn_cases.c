@@ -3,7 +3,6 @@
 #include "game/extremes/edge_pictures.h"
 #include "game/extremes/edge_render.h"
 #include "game/extremes/space_internal.h"
-#include "game/techniques.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -187,12 +186,10 @@ nook_result nook_space_run_far_vertices(const nook_extremes *extremes, nook_extr
 /** The largest RMS of the reference, or of the techniques that are not exact. */
 static double worst_picture(const drawn *a, const drawn *b, bool exact)
 {
-    size_t count;
-    const nook_ao_technique *const *techniques = nook_techniques(&count);
     const size_t pixels = a->pictures.pixels;
     double worst = 0.0;
-    for (size_t i = 0; i < count; i++) {
-        if (techniques[i]->exact == exact)
+    for (size_t i = 0; i < a->pictures.count; i++) {
+        if (a->pictures.estimators[i].technique->exact == exact)
             worst = fmax(
                 worst, nook_edge_rms(a->pictures.visibility + i * pixels, b->pictures.visibility + i * pixels, pixels));
     }

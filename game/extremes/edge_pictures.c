@@ -1,5 +1,4 @@
 #include "game/extremes/edge_pictures.h"
-#include "game/techniques.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,12 +7,12 @@ nook_result nook_edge_pictures_take(nook_edge_scene *scene, nook_extreme_found *
                                     nook_edge_pictures *out_pictures)
 {
     nook_edge_pictures pictures = { .pixels = scene->pixels };
-    const nook_ao_technique *const *techniques = nook_techniques(&pictures.technique_count);
-    pictures.visibility = calloc(pictures.technique_count * pictures.pixels, sizeof *pictures.visibility);
+    pictures.count = nook_edge_estimators(pictures.estimators);
+    pictures.visibility = calloc(pictures.count * pictures.pixels, sizeof *pictures.visibility);
     if (!pictures.visibility)
-        return nook_fail(NOOK_E_MEMORY, "extremes: no room for %zu pictures", pictures.technique_count);
-    for (size_t i = 0; i < pictures.technique_count; i++) {
-        nook_result result = nook_edge_scene_record(scene, techniques[i]->name, found, "%s", where);
+        return nook_fail(NOOK_E_MEMORY, "extremes: no room for %zu pictures", pictures.count);
+    for (size_t i = 0; i < pictures.count; i++) {
+        nook_result result = nook_edge_scene_record(scene, pictures.estimators[i].name, found, "%s", where);
         if (result != NOOK_OK) {
             nook_edge_pictures_free(&pictures);
             return result;
@@ -34,12 +33,10 @@ void nook_edge_pictures_free(nook_edge_pictures *pictures)
 void nook_edge_pictures_compare(const nook_edge_pictures *a, const nook_edge_pictures *b, nook_edge_compare compare,
                                 nook_extreme_found *found, const char *where)
 {
-    size_t count;
-    const nook_ao_technique *const *techniques = nook_techniques(&count);
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < a->count; i++) {
         size_t first = i * a->pixels;
         nook_extreme_worst(found, compare(a->visibility + first, b->visibility + first, a->pixels), "%s, %s",
-                           techniques[i]->name, where);
+                           a->estimators[i].name, where);
     }
 }
 

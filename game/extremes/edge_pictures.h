@@ -2,13 +2,14 @@
 #pragma once
 #include "game/extremes/edge_scene.h"
 
-/** One picture for each technique of the program, in the order of nook_techniques. Release with nook_edge_pictures_free. */
+/** One picture for each estimator of the program. Release with nook_edge_pictures_free. */
 typedef struct nook_edge_pictures {
-    float *visibility; /**< technique_count pictures of `pixels` each. Owned. */
-    size_t technique_count, pixels;
+    nook_edge_estimator estimators[NOOK_EDGE_ESTIMATORS_MAX];
+    float *visibility; /**< `count` pictures of `pixels` each. Owned. */
+    size_t count, pixels;
 } nook_edge_pictures;
 
-/** Records all techniques. @param where  of the scene, for what is found outside of [0, 1] */
+/** Records all estimators. @param where  of the scene, for what is found outside of [0, 1] */
 nook_result nook_edge_pictures_take(nook_edge_scene *scene, nook_extreme_found *found, const char *where,
                                     nook_edge_pictures *out_pictures);
 void nook_edge_pictures_free(nook_edge_pictures *pictures); /**< Zeroed is allowed. */
@@ -16,7 +17,7 @@ void nook_edge_pictures_free(nook_edge_pictures *pictures); /**< Zeroed is allow
 /** A number that says how far two pictures are apart. */
 typedef double (*nook_edge_compare)(const float *a, const float *b, size_t count);
 
-/** Keeps the worst over all techniques of compare(a, b). */
+/** Keeps the worst over all estimators of compare(a, b). */
 void nook_edge_pictures_compare(const nook_edge_pictures *a, const nook_edge_pictures *b, nook_edge_compare compare,
                                 nook_extreme_found *found, const char *where);
 

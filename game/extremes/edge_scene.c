@@ -208,28 +208,44 @@ void nook_edge_scene_move(nook_edge_scene *scene, const nook_matrix *move)
     }
 }
 
-nook_result nook_edge_scene_record(nook_edge_scene *scene, const char *technique, nook_extreme_found *found,
+/** The technique, with the kind of volumes that the name asks for; the one before is set again. */
+static nook_result record_with_kind(nook_fixture_view *view, const char *estimator)
+{
+    char technique[NOOK_EDGE_ESTIMATOR_NAME_MAX], name[NOOK_EDGE_ESTIMATOR_NAME_MAX + 8];
+    const char *kind = nook_edge_estimator_split(estimator, technique);
+    double before = 0.0;
+    snprintf(name, sizeof name, "%s.kind", technique);
+    nook_result result = kind ? nook_ao_get_param(view->ao, name, &before) : NOOK_OK;
+    if (result == NOOK_OK && kind)
+        result = nook_ao_parse_param(view->ao, name, kind);
+    if (result == NOOK_OK)
+        result = nook_fixture_view_record(view, technique);
+    nook_result restored = kind ? nook_ao_set_param(view->ao, name, before) : NOOK_OK;
+    return result == NOOK_OK ? restored : result;
+}
+
+nook_result nook_edge_scene_record(nook_edge_scene *scene, const char *estimator, nook_extreme_found *found,
                                    const char *format, ...)
 {
     char where[160];
     va_list arguments;
-    nook_result result = nook_fixture_view_record(scene->view, technique);
+    nook_result result = record_with_kind(scene->view, estimator);
     if (result != NOOK_OK)
         return result;
     va_start(arguments, format);
     vsnprintf(where, sizeof where, format, arguments);
     va_end(arguments);
-    nook_extreme_check_view(found, scene->view, "%s, %s", technique, where);
+    nook_extreme_check_view(found, scene->view, "%s, %s", estimator, where);
     return NOOK_OK;
 }
 
 nook_result nook_edge_scene_record_all(nook_edge_scene *scene, nook_extreme_found *found, const char *what)
 {
-    size_t count;
-    const nook_ao_technique *const *techniques = nook_techniques(&count);
+    nook_edge_estimator estimators[NOOK_EDGE_ESTIMATORS_MAX];
+    const size_t count = nook_edge_estimators(estimators);
     nook_result result = NOOK_OK;
     for (size_t i = 0; result == NOOK_OK && i < count; i++)
-        result = nook_edge_scene_record(scene, techniques[i]->name, found, "%s", what);
+        result = nook_edge_scene_record(scene, estimators[i].name, found, "%s", what);
     nook_extreme_worst(found, (double)found->outside, "%s", what);
     return result;
 }

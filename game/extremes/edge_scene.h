@@ -3,6 +3,7 @@
  * one camera, 7.3 units from corner to corner. Made by code, at any scale.
  */
 #pragma once
+#include "game/extremes/edge_estimator.h"
 #include "game/extremes/extremes.h"
 #include "modules/ao/technique.h"
 #include "modules/fixture/view.h"
@@ -51,9 +52,9 @@ nook_result nook_edge_scene_draw(nook_edge_scene *scene);
 /** Carries bodies, camera and normals along with `move`, rigid or mirrored: the picture must stay the same. */
 void nook_edge_scene_move(nook_edge_scene *scene, const nook_matrix *move);
 
-/** Every technique of the program, and what is outside of [0, 1] as the worst. @param what  where that is */
+/** Every estimator of the program, and what is outside of [0, 1] as the worst. @param what  where that is */
 nook_result nook_edge_scene_record_all(nook_edge_scene *scene, nook_extreme_found *found, const char *what);
 
-/** Records and counts what is outside [0, 1]. @param format  where, as in nook_extreme_check */
-nook_result nook_edge_scene_record(nook_edge_scene *scene, const char *technique, nook_extreme_found *found,
+/** Records and counts what is outside [0, 1]. @param estimator  its name, or a technique's @param format  where, as in nook_extreme_check */
+nook_result nook_edge_scene_record(nook_edge_scene *scene, const char *estimator, nook_extreme_found *found,
                                    const char *format, ...) NOOK_PRINTF(4, 5);

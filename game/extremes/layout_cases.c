@@ -1,6 +1,5 @@
 /* G-buffers without normals, and those whose rows run the other way. */
 #include "game/extremes/buffer_internal.h"
-#include "game/techniques.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -82,8 +81,8 @@ static nook_result compare_plain(nook_edge_scene *scene, const char *technique, 
 
 nook_result nook_buffer_run_no_normals(const nook_extremes *extremes, nook_extreme_found *out_found)
 {
-    size_t count;
-    const nook_ao_technique *const *techniques = nook_techniques(&count);
+    nook_edge_estimator estimators[NOOK_EDGE_ESTIMATORS_MAX];
+    const size_t count = nook_edge_estimators(estimators);
     nook_edge_scene scene;
     double whole = 0.0;
     out_found->bound = HALF_A_CODE;
@@ -94,7 +93,7 @@ nook_result nook_buffer_run_no_normals(const nook_extremes *extremes, nook_extre
     if (!pictures)
         result = nook_fail(NOOK_E_MEMORY, "extremes: no room for two pictures");
     for (size_t i = 0; result == NOOK_OK && i < count; i++)
-        result = compare_plain(&scene, techniques[i]->name, pictures, pictures + scene.pixels, out_found, &whole);
+        result = compare_plain(&scene, estimators[i].name, pictures, pictures + scene.pixels, out_found, &whole);
     free(pictures);
     nook_extreme_state(out_found, 0.04, 0.01, whole, "RMS of the worst technique, with the edges");
     nook_edge_scene_free(&scene);
@@ -118,10 +117,8 @@ enum { SEEDS = 5 }; /* the first is the usual one */
 static void compare_flipped(const nook_edge_pictures seeded[SEEDS], nook_edge_pictures *flipped,
                             nook_extreme_found *found)
 {
-    size_t count;
-    const nook_ao_technique *const *techniques = nook_techniques(&count);
     const size_t pixels = flipped->pixels, side = (size_t)sqrt((double)pixels);
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < flipped->count; i++) {
         const float *usual = seeded[0].visibility + i * pixels;
         float *picture = flipped->visibility + i * pixels;
         double seeds = 0.0;
@@ -129,13 +126,13 @@ static void compare_flipped(const nook_edge_pictures seeded[SEEDS], nook_edge_pi
         for (size_t k = 1; k < SEEDS; k++)
             seeds = fmax(seeds, nook_edge_rms(usual, seeded[k].visibility + i * pixels, pixels));
         const double rows = nook_edge_rms(usual, picture, pixels);
-        nook_extreme_worst(found, rows / seeds, "%s: %.4f by %.4f", techniques[i]->name, rows, seeds);
+        nook_extreme_worst(found, rows / seeds, "%s: %.4f by %.4f", flipped->estimators[i].name, rows, seeds);
     }
 }
 
 nook_result nook_buffer_run_flipped(const nook_extremes *extremes, nook_extreme_found *out_found)
 {
-    nook_edge_pictures seeded[SEEDS] = { { 0 } }, flipped = { 0 };
+    nook_edge_pictures seeded[SEEDS] = { { .count = 0 } }, flipped = { .count = 0 };
     nook_result result = NOOK_OK;
     out_found->bound = 1.25;
     for (uint32_t k = 0; result == NOOK_OK && k < SEEDS; k++)

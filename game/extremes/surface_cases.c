@@ -3,7 +3,6 @@
 #include "game/extremes/edge_pictures.h"
 #include "game/extremes/groups.h"
 #include "game/extremes/surface_internal.h"
-#include "game/techniques.h"
 #include "modules/ao/sampling.h"
 #include <math.h>
 #include <stdio.h>
@@ -67,18 +66,18 @@ static nook_result look_along(const nook_extremes *extremes, double elevation, n
 /** Every technique (exact and volume ones, or those of the screen) on that floor, with and without the host's normals. */
 static nook_result measure_floor(nook_edge_scene *scene, bool screen, const char *where, nook_extreme_found *found)
 {
-    size_t count;
-    const nook_ao_technique *const *techniques = nook_techniques(&count);
+    nook_edge_estimator estimators[NOOK_EDGE_ESTIMATORS_MAX];
+    const size_t count = nook_edge_estimators(estimators);
     nook_result result = NOOK_OK;
     for (size_t i = 0; result == NOOK_OK && i < 2 * count; i++) {
-        const nook_ao_technique *technique = techniques[i / 2];
-        if ((technique->inputs == 0) != screen)
+        const nook_edge_estimator *estimator = &estimators[i / 2];
+        if ((estimator->technique->inputs == 0) != screen)
             continue;
         scene->view->without_normals = i % 2 == 1;
-        result = nook_edge_scene_record(scene, technique->name, found, "%s", where);
+        result = nook_edge_scene_record(scene, estimator->name, found, "%s", where);
         if (result == NOOK_OK)
             nook_extreme_worst(found, nook_edge_occlusion(scene->view->visibility, scene->pixels), "%s %s%s",
-                               technique->name, where, i % 2 ? ", normals rebuilt" : "");
+                               estimator->name, where, i % 2 ? ", normals rebuilt" : "");
     }
     return result;
 }

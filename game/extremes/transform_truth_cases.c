@@ -127,20 +127,28 @@ static nook_result measure_grown(nook_fixture_view *view, const nook_matrix *mat
     return measure(view, "reference", found, out_mean);
 }
 
+static const char *const kinds[] = { "binary", "surfel" };
+
 static nook_result compare_volume(nook_fixture_view *view, const nook_matrix *matrix, int index,
                                   nook_extreme_found *found)
 {
-    double got = 0.0, least = 0.0, truth = 0.0, most = 0.0;
+    double got[NOOK_COUNT(kinds)] = { 0.0 }, least = 0.0, truth = 0.0, most = 0.0;
+    nook_result result = NOOK_OK;
     use_matrix(view, matrix);
-    nook_result result = measure(view, "volume", found, &got);
+    for (size_t i = 0; result == NOOK_OK && i < NOOK_COUNT(kinds); i++) {
+        result = nook_ao_parse_param(view->ao, "volume.kind", kinds[i]);
+        if (result == NOOK_OK)
+            result = measure(view, "volume", found, &got[i]);
+    }
     if (result == NOOK_OK)
         result = measure_grown(view, matrix, -1.0, found, &least);
     if (result == NOOK_OK)
         result = measure_grown(view, matrix, 0.0, found, &truth);
     if (result == NOOK_OK)
         result = measure_grown(view, matrix, 1.0, found, &most);
-    nook_extreme_worst(found, fmax(0.0, fmax(least - got, got - most)), "matrix %d, A = %.4f, true %.4f", index, got,
-                       truth);
+    for (size_t i = 0; i < NOOK_COUNT(kinds); i++)
+        nook_extreme_worst(found, fmax(0.0, fmax(least - got[i], got[i] - most)), "%s, matrix %d, A = %.4f, true %.4f",
+                           kinds[i], index, got[i], truth);
     return result;
 }
 
