@@ -35,6 +35,7 @@ nook_result nook_scene_load(const char *path, const nook_scene_options *options,
         return NOOK_E_MEMORY;
     nook_gltf gltf = { .path = path, .scene = scene };
     scene->path = nook_scene_copy_string(path);
+    scene->silent = options && options->silent;
     nook_result result = scene->path && nook_scene_add_file(scene, path) ? load(&gltf, options) : NOOK_E_MEMORY;
     nook_gltf_close(&gltf);
     if (result != NOOK_OK) {

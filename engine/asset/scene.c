@@ -45,7 +45,8 @@ void nook_scene_warn(nook_scene *scene, const char *format, ...)
     va_end(arguments);
     if (scene->warning_count == WARNINGS_MAX - 1)
         snprintf(text, sizeof text, "%s: further warnings are not shown", scene->path);
-    nook_log_warning("%s", text);
+    if (!scene->silent)
+        nook_log_warning("%s", text);
     char *copy = nook_scene_copy_string(text);
     if (copy)
         scene->warnings[scene->warning_count++] = copy;

@@ -145,6 +145,7 @@ typedef struct nook_scene {
     double bounds_min[3], bounds_max[3]; /**< World space of all drawn vertices; min > max when nothing is drawn. */
     char **warnings;
     uint32_t warning_count;
+    bool silent; /**< Warnings are kept, not logged. */
     char *
         *files; /**< What it was read from: itself, buffers and images, those of joined scenes; as they were opened. */
     uint32_t file_count;
@@ -152,6 +153,7 @@ typedef struct nook_scene {
 
 typedef struct nook_scene_options {
     bool skip_images; /**< Leave pixels NULL: for tools that need geometry only. */
+    bool silent;      /**< Keep warnings in the scene only: for a first look at a file that is loaded again. */
 } nook_scene_options;
 
 /**

@@ -22,9 +22,17 @@ typedef struct probed {
     nook_rays *rays;
 } probed;
 
+/* @return the failure: nobody loads the file after us, so its warnings, which may be the reason, are said here */
+static nook_result refuse_empty(const nook_scene *scene)
+{
+    for (uint32_t i = 0; i < scene->warning_count; i++)
+        nook_log_warning("%s", scene->warnings[i]);
+    return nook_fail(NOOK_E_FORMAT, "%s: holds no triangles, so there is nothing to play in", scene->path);
+}
+
 static nook_result open_model(const char *path, probed *out)
 {
-    const nook_scene_options geometry = { .skip_images = true };
+    const nook_scene_options geometry = { .skip_images = true, .silent = true };
     *out = (probed){ NULL, NULL };
     nook_result result = nook_scene_load(path, &geometry, &out->scene);
     if (result == NOOK_OK)
@@ -32,7 +40,7 @@ static nook_result open_model(const char *path, probed *out)
     if (result != NOOK_OK)
         return result;
     if (out->scene->triangle_count == 0)
-        return nook_fail(NOOK_E_FORMAT, "%s: holds no triangles, so there is nothing to play in", path);
+        return refuse_empty(out->scene);
     return nook_rays_create(out->scene, &out->rays);
 }
 

@@ -123,6 +123,24 @@ static void test_where_the_file_names_bodies_only_those_are(void **state)
     play_room_close(&room);
 }
 
+static void test_what_a_file_warns_of_is_said_once_though_it_is_read_twice(void **state)
+{
+    (void)state;
+    nook_log_capture log;
+    test_glb glb = { 0 };
+    test_glb_add(&glb, test_quad_positions, sizeof test_quad_positions);
+    const char *path = test_glb_write(&glb, TEST_GLB_ONE_NODE
+                                      ", 'meshes': [ { 'primitives': [ { 'attributes': { 'POSITION': 0 } } ] } ], "
+                                      "'accessors': [ { 'bufferView': 0, 'componentType': 5126, 'count': 3, "
+                                      "'type': 'VEC3', 'min': [ 0, 0, 0 ], 'max': [ 1, 2, 0 ] } ]");
+    nook_log_capture_begin(&log);
+    play_room room = play_room_open_level(path, 1);
+    nook_log_capture_end();
+    assert_int_equal(log.count, 2); /* that, and the ground */
+    assert_int_equal(log.errors, 0);
+    play_room_close(&room);
+}
+
 static void test_a_file_without_triangles_is_refused(void **state)
 {
     (void)state;
@@ -134,6 +152,7 @@ static void test_a_file_without_triangles_is_refused(void **state)
     nook_log_capture_end();
     assert_null(level);
     assert_int_equal(log.errors, 1);
+    assert_int_equal(log.count, 2); /* its warning stays its own */
     assert_non_null(strstr(log.text, "nothing to play in"));
 }
 
@@ -144,6 +163,7 @@ int main(void)
         cmocka_unit_test(test_a_thing_without_ground_gets_one_and_says_so),
         cmocka_unit_test(test_where_no_node_is_a_body_small_ones_are_and_large_ones_are_not),
         cmocka_unit_test(test_where_the_file_names_bodies_only_those_are),
+        cmocka_unit_test(test_what_a_file_warns_of_is_said_once_though_it_is_read_twice),
         cmocka_unit_test(test_a_file_without_triangles_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
