@@ -36,7 +36,8 @@ typedef struct nook_play {
     nook_pilot *pilot;
     nook_pilot_status pilot_status; /**< NOOK_PILOT_DONE when there is none. */
     uint32_t seed;
-    uint64_t ended_at; /**< Tick of the try at which it was won or lost; 0: it is not. */
+    uint64_t ended_at;   /**< Tick of the try at which it was won or lost; 0: it is not. */
+    uint64_t ended_hash; /**< Of the state after that tick. */
 } nook_play;
 
 /**
@@ -71,7 +72,10 @@ bool nook_play_is_free(const nook_play *play);
 bool nook_play_can_end(const nook_level *level);
 /** Whether it was won or lost 2 s ago: time to see what that looks like, for who plays without a window. */
 bool nook_play_is_beyond_end(const nook_play *play);
-/** One line on standard output: won, lost, ended (where nothing can be won) or undecided, after how many ticks, and the hash of the state. */
+/**
+ * One line on standard output: won, lost, ended (where nothing can be won) or undecided, after how many ticks, and the hash of the
+ * state after that tick: however long the world goes on after a win, its line stays the same.
+ */
 void nook_play_print_end(const nook_play *play);
 /** Writes the recording, if one is asked for, and frees everything. @return NOOK_E_IO, NOOK_E_MEMORY: not written; closed it is */
 nook_result nook_play_close(nook_play *play);

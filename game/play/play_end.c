@@ -24,8 +24,9 @@ void nook_play_print_end(const nook_play *play)
     static const char *const words[] = { "undecided", "won", "lost" };
     bool decided = nook_play_can_end(play->level);
     nook_session_view view = nook_session_look(play->session);
-    uint64_t ticks = play->ended_at > 0 ? play->ended_at : view.ticks;
+    bool over = play->ended_at > 0;
+    uint64_t ticks = over ? play->ended_at : view.ticks;
+    uint64_t hash = over ? play->ended_hash : nook_session_hash(play->session);
     printf("%s after %llu ticks (%.1f s), hash %016llx\n", decided ? words[view.status] : "ended",
-           (unsigned long long)ticks, (double)ticks * NOOK_PHYSICS_STEP,
-           (unsigned long long)nook_session_hash(play->session));
+           (unsigned long long)ticks, (double)ticks * NOOK_PHYSICS_STEP, (unsigned long long)hash);
 }

@@ -218,10 +218,12 @@ nook_result nook_play_tick(nook_play *play, const nook_play_input *from_player)
     if (result != NOOK_OK)
         return result;
     nook_session_view view = nook_session_look(play->session);
-    if (view.status == NOOK_SESSION_PLAYING)
+    if (view.status == NOOK_SESSION_PLAYING) {
         play->ended_at = 0;
-    else if (play->ended_at == 0)
+    } else if (play->ended_at == 0) {
         play->ended_at = view.ticks;
+        play->ended_hash = nook_session_hash(play->session);
+    }
     return NOOK_OK;
 }
 

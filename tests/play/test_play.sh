@@ -44,6 +44,13 @@ test_recordings_of_the_same_inputs_are_the_same_and_end_in_the_same_state() {
     cmp <(head -n $shared $house.replay) <(head -n $shared "$tmp/again.replay")
 }
 
+test_the_line_of_a_win_is_that_of_its_tick_however_long_the_world_goes_on() {
+    [[ $(shipped) =~ after\ ([0-9]+)\ ticks ]]
+    awk -v left="${BASH_REMATCH[1]}" 'NR <= 4 { print; next } left > 0 { $1 = $1 < left ? $1 : left; left -= $1; print }' \
+        $house.replay >"$tmp/to_the_win.replay"
+    [ "$(play --replay "$tmp/to_the_win.replay" | tail -n 1)" = "$(shipped)" ]
+}
+
 test_on_another_seed_it_goes_otherwise() {
     local last
     ends_with "$(shipped)" won

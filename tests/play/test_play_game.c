@@ -174,14 +174,18 @@ static void test_a_replay_in_a_level_that_was_changed_is_warned_of_once(void **s
     }
 }
 
-static void test_the_tick_of_the_end_is_kept_until_a_restart(void **state)
+static void test_the_tick_of_the_end_and_its_hash_are_kept_until_a_restart(void **state)
 {
     (void)state;
     const nook_play_input restart = { .buttons = NOOK_PLAY_RESTART };
     nook_play play = must_open(&(nook_play_desc){ .root = ".", .level = write_level("seconds = 1\n") });
-    for (int i = 0; i < 90; i++)
+    uint64_t hash = 0;
+    for (int i = 1; i <= 90; i++) {
         assert_int_equal(nook_play_tick(&play, &nothing), NOOK_OK);
+        hash = i == 60 ? nook_session_hash(play.session) : hash;
+    }
     assert_int_equal(play.ended_at, 60);
+    assert_true(play.ended_hash == hash && hash != nook_session_hash(play.session)); /* the world goes on */
     assert_int_equal(nook_play_tick(&play, &restart), NOOK_OK);
     assert_int_equal(play.ended_at, 0);
     assert_int_equal(nook_play_close(&play), NOOK_OK);
@@ -251,7 +255,7 @@ int main(void)
         cmocka_unit_test(test_a_level_is_the_recorded_one_however_its_path_is_written),
         cmocka_unit_test(test_a_recording_that_lies_beside_its_level_is_played_from_anywhere),
         cmocka_unit_test(test_a_replay_in_a_level_that_was_changed_is_warned_of_once),
-        cmocka_unit_test(test_the_tick_of_the_end_is_kept_until_a_restart),
+        cmocka_unit_test(test_the_tick_of_the_end_and_its_hash_are_kept_until_a_restart),
         cmocka_unit_test(test_a_level_that_changes_on_disk_is_gone_on_in),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
