@@ -4,7 +4,7 @@
  *   create -> every frame: input -> (the host moves its world) -> draw -> present -> destroy
  *
  * All that it keeps is plain memory without pointers into code or tables of code, so that both may be reloaded between two frames.
- * Keys: nook_live_help lists them. What they, the mouse and the panels do not use is left for the host.
+ * Keys: nook_live_keys lists them. What they, the mouse and the panels do not use is left for the host.
  */
 #pragma once
 #include "engine/overlay/overlay.h"
@@ -109,8 +109,24 @@ enum { NOOK_LIVE_MESSAGES_MAX = 6, NOOK_LIVE_MESSAGE_SIZE = 1024 };
  */
 void nook_live_message(nook_live *live, const char *from, const char *text);
 
+/** Lists of keys: what the views listen to, and beside or above it what the host does. */
+typedef enum nook_live_help {
+    NOOK_LIVE_HELP_NONE,
+    NOOK_LIVE_HELP_HOST,  /**< Yours alone: there is no room for both, and F1 turns the page. */
+    NOOK_LIVE_HELP_VIEWS, /**< That of the views alone, which is drawn here. */
+    NOOK_LIVE_HELP_BOTH
+} nook_live_help;
+
+/** Width in letters' heights from which on the two lists lie beside each other, and not above. */
+enum { NOOK_LIVE_HELP_BESIDE = 49 };
+
+/** Which lists are to be seen. */
+nook_live_help nook_live_help_shown(const nook_live *live);
+/** How far above the window's bottom the host's list ends, at its left side: pixels. */
+double nook_live_help_bottom(const nook_live *live);
+
 /** What a key does. */
 typedef struct nook_live_key {
     const char *key, *what;
 } nook_live_key;
-const nook_live_key *nook_live_help(size_t *out_count);
+const nook_live_key *nook_live_keys(size_t *out_count);

@@ -20,7 +20,7 @@ static const nook_live_key help[] = {
     { "mouse", "drags borders; tells of a frozen pixel" },
 };
 
-const nook_live_key *nook_live_help(size_t *out_count)
+const nook_live_key *nook_live_keys(size_t *out_count)
 {
     *out_count = NOOK_COUNT(help);
     return help;
@@ -87,7 +87,7 @@ static void use_keys(nook_live *live, nook_input *rest)
     choose_by_number(live, rest);
     change_views(live, rest, back);
     if (take(rest, NOOK_KEY_F1))
-        live->help = !live->help;
+        live_help_turn(live);
     if (take(rest, NOOK_KEY_F2))
         live->panels = !live->panels;
     if (take(rest, NOOK_KEY_T))

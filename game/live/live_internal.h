@@ -61,7 +61,7 @@ typedef struct live_targets {
 typedef struct live_seen {
     double mouse[2], note_ms;
     uint32_t hovered, active, messages;
-    bool help;
+    uint32_t help_page;
 } live_seen;
 
 /** What a view's visibility differs from the truth by, over its pixels with geometry. */
@@ -101,7 +101,9 @@ struct nook_live {
     live_message messages[NOOK_LIVE_MESSAGES_MAX];
     char note[LIVE_NOTE_SIZE];        /**< What was done last ("saved ..."), for some seconds. */
     double note_ms;                   /**< When it was. */
-    bool help, panels;                /**< Shown. */
+    bool panels;                      /**< Shown. */
+    uint32_t help_page;               /**< Of the lists of keys; 0: none is shown. */
+    double letter;                    /**< Height of the overlay's letters, pixels; 0 before its first frame. */
     live_seen seen;                   /**< In the last frame. */
     uint32_t message_count;           /**< Changes of messages so far. */
     bool timing;                      /**< Passes are timed, whatever is shown. */
@@ -205,6 +207,8 @@ void live_probe(nook_live *live);
 /* live_overlay.c */
 /** Begins the overlay's frame, unless it is. */
 void live_overlay_begin(nook_live *live);
+/** The next page of the lists of keys; after the last none. */
+void live_help_turn(nook_live *live);
 /** All widgets of the frame; decides by itself whether there are any. */
 void live_overlay_build(nook_live *live);
 /** Something over the picture changes by itself. */

@@ -12,7 +12,9 @@ static const nook_overlay_colour border_colour = { 20, 20, 20, 255 };
 static const double note_ms = 4000.0;
 static const double message_width = 42.0, help_column = 5.0, both_panels = 54.0; /* letters' heights */
 static const double panels_and_help = 72.0; /* the same: with a list of the host's */
-static const double margin = 8.0;           /* pixels at scale 1: of what lies in a corner */
+static const double list_height = 16.0,
+                    lists_height = 36.0; /* the same: of our list of keys, of both above each other */
+static const double margin = 8.0;        /* pixels at scale 1: of what lies in a corner */
 
 void live_note(nook_live *live, const char *format, ...)
 {
@@ -33,6 +35,7 @@ void live_overlay_begin(nook_live *live)
                                        .seconds = live->seconds,
                                        .input = live->pointer ? &live->input : NULL };
     live->taken = nook_overlay_begin(live->overlay, &frame);
+    live->letter = nook_overlay_letter_height(live->overlay);
     live->overlay_begun = true;
     live->borders_shown = false;
 }
@@ -89,11 +92,40 @@ static void show_messages(nook_live *live, double width)
     nook_overlay_panel_end(live->overlay);
 }
 
+/* Whether there is room for the host's list of keys and that of the views. */
+static bool has_both_lists(const nook_live *live)
+{
+    return live_shown_width(live) >= NOOK_LIVE_HELP_BESIDE * live->letter ||
+           live_shown_height(live) >= lists_height * live->letter;
+}
+
+void live_help_turn(nook_live *live)
+{
+    const uint32_t pages = has_both_lists(live) ? 1 : 2;
+    live->help_page = live->help_page >= pages ? 0 : live->help_page + 1;
+}
+
+nook_live_help nook_live_help_shown(const nook_live *live)
+{
+    if (live->help_page == 0)
+        return NOOK_LIVE_HELP_NONE;
+    if (has_both_lists(live))
+        return NOOK_LIVE_HELP_BOTH;
+    return live->help_page == 1 ? NOOK_LIVE_HELP_HOST : NOOK_LIVE_HELP_VIEWS;
+}
+
+double nook_live_help_bottom(const nook_live *live)
+{
+    bool above = nook_live_help_shown(live) == NOOK_LIVE_HELP_BOTH &&
+                 live_shown_width(live) < NOOK_LIVE_HELP_BESIDE * live->letter;
+    return margin * live->scale + (above ? list_height * live->letter : 0.0);
+}
+
 /* Whether panels are seen: help lies over them where there is no room beside them, and they wait. */
 static bool has_panels(const nook_live *live)
 {
     const double letter = nook_overlay_letter_height(live->overlay);
-    return live->panels && !(live->help && live_shown_width(live) < panels_and_help * letter);
+    return live->panels && !(live->help_page > 0 && live_shown_width(live) < panels_and_help * letter);
 }
 
 static void show_help(nook_live *live)
@@ -102,7 +134,7 @@ static void show_help(nook_live *live)
     const double right = has_panels(live) ? 2.0 * side + LIVE_PANEL_WIDTH * letter : side;
     const nook_overlay_panel panel = { .title = "##help", .x = -right, .y = -side, .bare = true, .passive = true };
     size_t count;
-    const nook_live_key *keys = nook_live_help(&count);
+    const nook_live_key *keys = nook_live_keys(&count);
     nook_overlay_panel_begin(live->overlay, &panel);
     for (size_t i = 0; i < count; i++) {
         nook_overlay_text_coloured(live->overlay, accent, keys[i].key);
@@ -153,7 +185,7 @@ static live_seen seen_now(const nook_live *live)
 {
     live_seen now;
     memset(&now, 0, sizeof now);
-    now.help = live->help;
+    now.help_page = live->help_page;
     now.note_ms = has_note(live) ? live->note_ms : 0.0;
     now.hovered = live->hovered;
     now.active = live->views.active;
@@ -195,7 +227,7 @@ void live_overlay_build(nook_live *live)
     bool views = live_names_shown(live);
     live->times_shown = false;
     live->seen = seen_now(live);
-    if (!(views || live->help || has_messages(live) || has_note(live) || live->overlay_used)) {
+    if (!(views || live->help_page > 0 || has_messages(live) || has_note(live) || live->overlay_used)) {
         if (live->overlay_begun)
             nook_overlay_end(live->overlay);
         live->overlay_begun = false;
@@ -211,7 +243,8 @@ void live_overlay_build(nook_live *live)
     if (has_panels(live))
         show_panels(live, width);
     live_probe(live);
-    if (live->help)
+    nook_live_help help = nook_live_help_shown(live);
+    if (help == NOOK_LIVE_HELP_VIEWS || help == NOOK_LIVE_HELP_BOTH)
         show_help(live);
     if (has_messages(live))
         show_messages(live, width);

@@ -2,6 +2,7 @@
 #include <math.h>
 
 static const double turns_per_degree = 65536.0 / 360.0;
+static const double asks_for_seconds = 3.0; /* time to read the question */
 
 /* Two directions of keys and one of a stick, as a part of the walking speed. */
 static double axis(bool minus, bool plus, double stick)
@@ -31,6 +32,17 @@ static uint16_t held_buttons(const nook_input *input)
     return buttons;
 }
 
+/* Whether the player wants from the start again, and means it. */
+static bool is_restart_meant(nook_controls *controls, const nook_input *input, double seconds)
+{
+    bool meant = controls->try_is_over || controls->asks_for > 0.0;
+    controls->asks_for = fmax(controls->asks_for - seconds, 0.0);
+    if (!input->pressed[NOOK_KEY_BACKSPACE] && !input->pad.pressed[NOOK_PAD_BACK])
+        return false;
+    controls->asks_for = meant ? 0.0 : asks_for_seconds;
+    return meant;
+}
+
 /* A jump is in both: a key that was down for less than a frame counts too. */
 static uint16_t pressed_buttons(nook_controls *controls, const nook_input *input)
 {
@@ -44,8 +56,6 @@ static uint16_t pressed_buttons(nook_controls *controls, const nook_input *input
         buttons |= NOOK_PLAY_TAKE;
     if (pressed[NOOK_KEY_Q] || input->mouse_pressed[1] || (trigger && !controls->thrown))
         buttons |= NOOK_PLAY_THROW;
-    if (pressed[NOOK_KEY_BACKSPACE] || pad->pressed[NOOK_PAD_BACK])
-        buttons |= NOOK_PLAY_RESTART;
     controls->thrown = trigger;
     return buttons;
 }
@@ -69,12 +79,15 @@ void nook_controls_add(nook_controls *controls, const nook_input *input, const n
     controls->not_ours &= held;
     controls->held.buttons = held & (uint16_t)~controls->not_ours;
     controls->pressed |= pressed_buttons(controls, input);
+    if (is_restart_meant(controls, input, seconds))
+        controls->pressed |= NOOK_PLAY_RESTART;
 }
 
 void nook_controls_skip(nook_controls *controls, const nook_input *input)
 {
     controls->not_ours = held_buttons(input);
     controls->thrown = input->pad.right_trigger > 0.5;
+    controls->asks_for = 0.0;
 }
 
 /* Takes whole steps; what is left of one waits for the next tick. */

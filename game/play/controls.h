@@ -5,9 +5,10 @@
  *   Shift             run            left trigger       Space         jump           A / cross
  *   Ctrl, C           crouch         B / circle         E, click      take, let go   X / square
  *   Q, right click    throw          right trigger      R, held       turn it        right bumper
- *   Backspace         from the start again              Back
+ *   Backspace, twice  from the start again              Back, twice
  *
- * What is pressed in a menu and still held when it closes is not the game's.
+ * What is pressed in a menu and still held when it closes is not the game's. From the start again is minutes of play thrown away: the
+ * first press asks, the second does it; where a try is over there is nothing to lose, and the first does it.
  */
 #pragma once
 #include "engine/platform/context.h"
@@ -20,6 +21,8 @@ typedef struct nook_controls {
     uint16_t pressed;  /**< Buttons that count once. */
     bool thrown;       /**< The trigger that throws was down at the last frame. */
     uint16_t not_ours; /**< Buttons that count again when they were let go. */
+    bool try_is_over;  /**< Yours to set. */
+    double asks_for;   /**< Seconds for which a second press still means from the start again; 0: nobody has asked. */
     nook_play_input held;
 } nook_controls;
 

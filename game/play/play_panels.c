@@ -5,7 +5,7 @@
 
 static const nook_overlay_colour white = { 255, 255, 255, 255 }, gold = { 255, 214, 120, 255 };
 static const nook_overlay_colour soft = { 255, 255, 255, 150 };
-static const double menu_width = 26.0, both_lists = 45.0, other_list = 16.0; /* letters' heights */
+static const double menu_width = 26.0; /* letters' heights */
 
 /* A label whose middle is at (x, y). */
 static void label_around(nook_overlay *overlay, double x, double y, nook_overlay_colour colour, const char *text)
@@ -47,9 +47,14 @@ static void put_blanks(char *name)
         *c = *c == '_' ? ' ' : *c;
 }
 
-static void draw_hint(nook_overlay *overlay, const nook_session_view *view, double x, double y)
+static void draw_hint(const nook_play_window *window, nook_overlay *overlay, const nook_session_view *view, double x,
+                      double y)
 {
     char text[160];
+    if (window->controls.asks_for > 0.0) {
+        label_lines(overlay, x, y, gold, "Backspace (gamepad: Back) again: from the start");
+        return;
+    }
     if (*view->carried)
         snprintf(text, sizeof text, "E let go   Q throw   R turn");
     else if (*view->looked_at)
@@ -124,8 +129,8 @@ void nook_play_draw_hud(nook_play_window *window, nook_overlay *overlay)
     if (window->paused)
         return;
     draw_cross(overlay, x, y, *view.looked_at || *view.carried);
-    draw_hint(overlay, &view, x, y + 3.0 * nook_overlay_letter_height(overlay));
-    if (!window->help)
+    draw_hint(window, overlay, &view, x, y + 3.0 * nook_overlay_letter_height(overlay));
+    if (nook_live_help_shown(window->live) == NOOK_LIVE_HELP_NONE && !(window->controls.asks_for > 0.0))
         draw_message(window, overlay, &view);
 }
 
@@ -153,7 +158,8 @@ static void draw_preference(nook_play_window *window, nook_overlay *overlay, con
 void nook_play_draw_menu(nook_play_window *window, nook_overlay *overlay)
 {
     double letter = nook_overlay_letter_height(overlay), width = menu_width;
-    if (window->help && window->width < (both_lists + menu_width) * letter)
+    if (nook_live_help_shown(window->live) != NOOK_LIVE_HELP_NONE &&
+        window->width < (NOOK_LIVE_HELP_BESIDE + menu_width) * letter)
         return; /* there is no room beside the keys */
     const nook_overlay_panel panel = { .title = "Paused##menu",
                                        .x = fmax(0.5 * (window->width - width * letter), 1.0),
@@ -180,11 +186,10 @@ void nook_play_draw_menu(nook_play_window *window, nook_overlay *overlay)
     nook_overlay_panel_end(overlay);
 }
 
-/* Beside the list of the views' keys, or above it. */
+/* Beside the list of the views' keys, or above it, or before it. */
 void nook_play_draw_help(const nook_play_window *window, nook_overlay *overlay)
 {
-    const double letter = nook_overlay_letter_height(overlay);
-    bool beside = window->width >= both_lists * letter;
+    bool alone = nook_live_help_shown(window->live) == NOOK_LIVE_HELP_HOST;
     static const char *const lines[][3] = {
         { "W A S D, arrows", "walk", "left stick" },
         { "mouse", "look", "right stick" },
@@ -194,15 +199,17 @@ void nook_play_draw_help(const nook_play_window *window, nook_overlay *overlay)
         { "E, left click", "take, let go", "X" },
         { "Q, right click", "throw", "right trigger" },
         { "R, held", "turn it", "right bumper" },
-        { "Backspace", "from the start", "Back" },
+        { "Backspace, twice", "from the start", "Back, twice" },
         { "Esc", "pause", "Start; cross, A" },
         { "F11", "full screen", "" },
+        { "F1", "the keys of the views", "" },
     };
+    const size_t count = NOOK_COUNT(lines) - (alone ? 0 : 1); /* beside or above them nobody asks */
     const nook_overlay_panel panel = {
-        .title = "##playing", .x = 8.0, .y = beside ? -8.0 : -8.0 - other_list * letter, .bare = true, .passive = true
+        .title = "##playing", .x = 8.0, .y = -nook_live_help_bottom(window->live), .bare = true, .passive = true
     };
     if (nook_overlay_panel_begin(overlay, &panel)) {
-        for (size_t i = 0; i < NOOK_COUNT(lines); i++) {
+        for (size_t i = 0; i < count; i++) {
             nook_overlay_text_coloured(overlay, gold, lines[i][0]);
             nook_overlay_same_line_at(overlay, 8.5);
             nook_overlay_text(overlay, lines[i][1]);

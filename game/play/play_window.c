@@ -143,10 +143,8 @@ nook_result nook_play_window_renew(nook_play_window *w)
 nook_result nook_play_window_close(nook_play_window *w)
 {
     nook_result result = nook_play_close(&w->play); /* before the world that it stands in */
-    if (memcmp(&w->preferences, &w->kept, sizeof w->kept) != 0) {
-        nook_result written = nook_preferences_write(w->preferences_path, &w->preferences);
-        result = result == NOOK_OK ? written : result;
-    }
+    if (memcmp(&w->preferences, &w->kept, sizeof w->kept) != 0)
+        nook_preferences_write(w->preferences_path, &w->preferences);
     nook_play_unwatch(w);
     if (w->live) {
         nook_result captured = nook_live_capture_end(w->live);
@@ -168,8 +166,6 @@ static void read_keys(nook_play_window *w, const nook_input *input)
         w->quit = true;
     if (input->pressed[NOOK_KEY_ESCAPE] || input->pad.pressed[NOOK_PAD_START] || (w->captured && !input->focused))
         w->paused = !w->paused;
-    if (input->pressed[NOOK_KEY_F1])
-        w->help = !w->help;
     if (input->pressed[NOOK_KEY_F11])
         w->preferences.full_screen = !was_full;
     if ((w->preferences.full_screen != 0) != was_full)
@@ -234,7 +230,8 @@ static void draw_panels(nook_play_window *w)
     nook_play_draw_hud(w, overlay);
     if (w->paused)
         nook_play_draw_menu(w, overlay);
-    if (w->help)
+    nook_live_help help = nook_live_help_shown(w->live);
+    if (help == NOOK_LIVE_HELP_HOST || help == NOOK_LIVE_HELP_BOTH)
         nook_play_draw_help(w, overlay);
 }
 
@@ -270,6 +267,7 @@ static void use_input(nook_play_window *w, const nook_input *input, double secon
     nook_live_input(w->live, input, !w->captured, &rest);
     if (!w->captured)
         forget_mouse(&rest);
+    w->controls.try_is_over = nook_session_look(w->play.session).status != NOOK_SESSION_PLAYING;
     if (w->paused)
         nook_controls_skip(&w->controls, input);
     else

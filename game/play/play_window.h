@@ -74,7 +74,7 @@ typedef struct nook_play_window {
     nook_play_told told;  /**< What the log and the title have said last. */
     uint32_t frames_left; /**< 0: no end. */
     bool captures;        /**< Every frame goes into a file. */
-    bool driven, has_window, paused, help, captured;
+    bool driven, has_window, paused, captured;
     bool quit;              /**< Asked for in the menu or by the window. */
     bool restart;           /**< Asked for in the menu: goes into the next tick. */
     uint32_t width, height; /**< Of the window, or of the picture where there is none. */

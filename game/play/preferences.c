@@ -41,7 +41,7 @@ void nook_preferences_read(const char *path, nook_preferences *out)
     nook_file_free(&file);
 }
 
-nook_result nook_preferences_write(const char *path, const nook_preferences *preferences)
+bool nook_preferences_write(const char *path, const nook_preferences *preferences)
 {
     char text[4096];
     size_t used = (size_t)snprintf(text, sizeof text, "# Nook: what the player likes. ./nook play writes this.\n");
@@ -51,5 +51,9 @@ nook_result nook_preferences_write(const char *path, const nook_preferences *pre
         used += (size_t)snprintf(text + used, sizeof text - used, "%s = %s\n", param->name,
                                  nook_param_print(param, preferences, value, sizeof value));
     }
-    return nook_file_write(path, text, strlen(text));
+    int reason = nook_file_try_write(path, text, strlen(text));
+    if (reason != 0)
+        nook_log_warning("%s: cannot write: %s; the next game begins with the preferences of before", path,
+                         strerror(reason));
+    return reason == 0;
 }

@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/core/param.h"
 #include "engine/core/result.h"
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -15,5 +16,5 @@ void nook_preferences_reset(nook_preferences *out);
  * it comes: a damaged file of likings must not keep anyone from playing. No file at all is no warning.
  */
 void nook_preferences_read(const char *path, nook_preferences *out);
-/** Whole or not at all. @return NOOK_E_IO */
-nook_result nook_preferences_write(const char *path, const nook_preferences *preferences);
+/** Whole or not at all; what cannot be kept is one warning, and no failure of the game. @return whether they were kept */
+bool nook_preferences_write(const char *path, const nook_preferences *preferences);

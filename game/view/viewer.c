@@ -26,7 +26,6 @@ typedef struct viewer {
     uint32_t camera;   /* the next one that C goes to */
     bool moving;       /* the picture is coarse */
     bool jumped;       /* to another camera */
-    bool help;         /* keys are listed */
     char setting[128]; /* technique of the active view when it was last logged */
     double moved_ms, polled_ms;
 } viewer;
@@ -68,7 +67,7 @@ static void tell_technique(viewer *v)
 }
 
 /* The keys and drags that are the window's own, beside those that nook_live lists at F1. */
-static void draw_help(nook_overlay *overlay)
+static void draw_help(const nook_live *live, nook_overlay *overlay)
 {
     static const nook_overlay_colour gold = { 255, 214, 120, 255 };
     static const char *const lines[][2] = {
@@ -80,7 +79,9 @@ static void draw_help(nook_overlay *overlay)
         { "C", "the next camera of the file" },
         { "Esc", "quit" },
     };
-    const nook_overlay_panel panel = { .title = "Looking##help", .x = 10.0, .y = -10.0, .passive = true };
+    const nook_overlay_panel panel = {
+        .title = "Looking##help", .x = 8.0, .y = -nook_live_help_bottom(live), .passive = true
+    };
     if (nook_overlay_panel_begin(overlay, &panel)) {
         for (size_t i = 0; i < NOOK_COUNT(lines); i++) {
             nook_overlay_text_coloured(overlay, gold, lines[i][0]);
@@ -213,8 +214,9 @@ static void show_title(const viewer *v)
 static nook_result draw(viewer *v, const nook_input *input)
 {
     nook_camera camera = nook_orbit_camera(&v->orbit);
-    if (v->help)
-        draw_help(nook_live_overlay(v->live));
+    nook_live_help help = nook_live_help_shown(v->live);
+    if (help == NOOK_LIVE_HELP_HOST || help == NOOK_LIVE_HELP_BOTH)
+        draw_help(v->live, nook_live_overlay(v->live));
     nook_live_set_coarse(v->live, v->moving);
     nook_live_hold(v->live, !v->moving);
     nook_result result = nook_live_draw(v->live, &camera);
@@ -260,8 +262,6 @@ static nook_result loop(viewer *v)
         nook_context_poll(v->stage->context, &input);
         if (input.close_requested || input.pressed[NOOK_KEY_ESCAPE])
             return NOOK_OK;
-        if (input.pressed[NOOK_KEY_F1]) /* nook_live takes it too */
-            v->help = !v->help;
         nook_live_input(v->live, &input, true, &left);
         read_keys(v, &left);
         move(v, &left);

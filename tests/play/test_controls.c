@@ -151,6 +151,52 @@ static void test_what_is_held_when_a_menu_closes_counts_when_it_is_pressed_again
     assert_int_equal(nook_controls_take(&controls).buttons, NOOK_PLAY_JUMP | NOOK_PLAY_THROW);
 }
 
+/* A frame in which Backspace, or the gamepad's Back, went down. @return whether it is from the start again */
+static bool restarts_after(nook_controls *controls, bool key, bool pad, double seconds)
+{
+    nook_preferences preferences = likings();
+    nook_input input = { 0 };
+    input.pressed[NOOK_KEY_BACKSPACE] = key;
+    input.pad.pressed[NOOK_PAD_BACK] = pad;
+    nook_controls_add(controls, &input, &preferences, seconds);
+    return (nook_controls_take(controls).buttons & NOOK_PLAY_RESTART) != 0;
+}
+
+static void test_from_the_start_again_is_asked_by_the_first_press_and_done_by_the_second(void **state)
+{
+    (void)state;
+    for (int pad = 0; pad < 2; pad++) {
+        nook_controls controls = { 0 };
+        assert_false(restarts_after(&controls, !pad, pad, 0.1));
+        assert_true(controls.asks_for > 2.0);
+        assert_false(restarts_after(&controls, false, false, 2.0)); /* time to read it */
+        assert_true(restarts_after(&controls, !pad, pad, 0.1));
+        assert_true(controls.asks_for == 0.0);
+        assert_false(restarts_after(&controls, !pad, pad, 0.1)); /* the next try is another question */
+    }
+}
+
+static void test_a_press_by_mistake_is_forgotten_and_so_is_one_before_a_pause(void **state)
+{
+    (void)state;
+    nook_controls controls = { 0 };
+    const nook_input idle = { 0 };
+    assert_false(restarts_after(&controls, true, false, 0.1));
+    assert_false(restarts_after(&controls, false, false, 5.0));
+    assert_true(controls.asks_for == 0.0);
+    assert_false(restarts_after(&controls, true, false, 0.1));
+    nook_controls_skip(&controls, &idle);
+    assert_false(restarts_after(&controls, true, false, 0.1));
+}
+
+static void test_where_a_try_is_over_one_press_begins_the_next(void **state)
+{
+    (void)state;
+    nook_controls controls = { .try_is_over = true };
+    assert_true(restarts_after(&controls, true, false, 0.1));
+    assert_true(controls.asks_for == 0.0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -163,6 +209,9 @@ int main(void)
         cmocka_unit_test(test_looking_up_is_up_unless_it_is_inverted),
         cmocka_unit_test(test_a_trigger_throws_once_until_it_is_let_go),
         cmocka_unit_test(test_what_is_held_when_a_menu_closes_counts_when_it_is_pressed_again),
+        cmocka_unit_test(test_from_the_start_again_is_asked_by_the_first_press_and_done_by_the_second),
+        cmocka_unit_test(test_a_press_by_mistake_is_forgotten_and_so_is_one_before_a_pause),
+        cmocka_unit_test(test_where_a_try_is_over_one_press_begins_the_next),
     };
     return cmocka_run_group_tests_name("controls", tests, NULL, NULL);
 }

@@ -54,6 +54,53 @@ test_preferences_last_from_one_game_to_the_next() {
     rm "$tmp/cache/preferences.txt"
 }
 
+test_preferences_that_cannot_be_kept_are_one_warning_and_the_game_ends_as_it_did() {
+    echo 'no folder' >"$tmp/no_folder"
+    in_game '
+        press F11
+        wait_for 30 eval "xdotool getwindowgeometry $window | grep -q 800x600"' --cache "$tmp/no_folder/cache"
+    [ "$(grep -c 'preferences.txt: cannot write: Not a directory' "$tmp/log")" -eq 1 ]
+}
+
+# asks: below the cross, which may be of that colour too.
+asks() { has_colour 'rgb(255,214,120)' 320x50+0+118; }
+
+test_the_first_backspace_asks_and_the_second_begins_from_the_start() {
+    rm -f "$tmp/played.replay"
+    export -f asks
+    in_game '
+        press e; wait_for 30 title_has "carrying crate"
+        not asks
+        press BackSpace; wait_for 30 asks
+        title_has "carrying crate"
+        wait_for 30 not asks # by mistake
+        title_has "carrying crate"
+        for _ in {1..20}; do # within 3 s
+            press BackSpace; sleep 0.6
+            title_has "carrying crate" || break
+        done
+        not title_has "carrying crate"'
+    [ "$(awk 'NF == 6 && int($4 / 32) % 2 { n += $1 } END { print n + 0 }' "$tmp/played.replay")" -eq 1 ]
+    [ "$("$program" play --headless --replay "$tmp/played.replay" | tail -n 1)" = "$(tail -n 1 "$tmp/table")" ]
+}
+
+# has_letters COLOUR PART: inside of a letter a colour is whole.
+has_letters() { see seen && [ "$(convert "$tmp/seen.png" -crop "$2" +repage -fuzz 3% -fill black +opaque "$1" -format '%[fx:maxima > 0 ? 1 : 0]' info:)" = 1 ]; }
+lists_its_own_keys() { has_letters 'rgb(255,214,120)' 130x230+0+60; } # beside the cross
+lists_keys_of_views() { has_letters 'rgb(255,180,60)' 400x240+0+60; }
+
+test_in_a_small_window_lists_of_keys_come_one_after_the_other() {
+    export -f has_letters lists_its_own_keys lists_keys_of_views
+    in_game '
+        not lists_its_own_keys
+        press F1; wait_for 30 lists_its_own_keys
+        not lists_keys_of_views
+        press F1; wait_for 30 lists_keys_of_views
+        not lists_its_own_keys
+        press F1; wait_for 30 not lists_keys_of_views
+        not lists_its_own_keys' --size 400x300
+}
+
 test_a_saved_settings_file_is_used_a_wrong_one_is_said_and_the_old_one_stays() {
     printf 'technique = volume\nrays = 2\n' >"$tmp/live.settings"
     in_game '

@@ -24,7 +24,7 @@ static void test_what_is_written_is_read_back(void **state)
     written.mouse_speed = 0.31f;
     written.invert_y = 1;
     written.picture_scale = 2;
-    assert_int_equal(nook_preferences_write(scratch(path), &written), NOOK_OK);
+    assert_true(nook_preferences_write(scratch(path), &written));
     nook_preferences_read(path, &read);
     assert_memory_equal(&read, &written, sizeof read);
 }
@@ -59,12 +59,26 @@ static void test_a_damaged_file_costs_its_bad_lines_only(void **state)
     assert_true(log.count >= 3);
 }
 
+static void test_what_cannot_be_kept_is_one_warning_and_no_failure(void **state)
+{
+    (void)state;
+    nook_log_capture log;
+    nook_preferences preferences;
+    nook_preferences_reset(&preferences);
+    nook_log_capture_begin(&log);
+    assert_false(nook_preferences_write("/nowhere/preferences.txt", &preferences));
+    nook_log_capture_end();
+    assert_true(log.count == 1 && log.errors == 0);
+    assert_non_null(strstr(log.text, "/nowhere/preferences.txt: cannot write: No such file or directory"));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_what_is_written_is_read_back),
         cmocka_unit_test(test_no_file_gives_the_initial_values_in_silence),
         cmocka_unit_test(test_a_damaged_file_costs_its_bad_lines_only),
+        cmocka_unit_test(test_what_cannot_be_kept_is_one_warning_and_no_failure),
     };
     return cmocka_run_group_tests_name("preferences", tests, NULL, NULL);
 }
