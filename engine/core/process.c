@@ -1,6 +1,9 @@
 #include "engine/core/process.h"
 #include "engine/core/log.h"
 #include <dirent.h>
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
 #include <stdbool.h>
 #include <stdio.h>
 #include <unistd.h>
@@ -18,6 +21,17 @@ static bool read_resident(uint64_t *out)
     return read;
 }
 
+/* What allocators keep of what was freed, and tear to pieces, is no part of this. */
+static uint64_t count_heap(void)
+{
+#if defined(__GLIBC__) && (__GLIBC__ > 2 || __GLIBC_MINOR__ >= 33)
+    struct mallinfo2 info = mallinfo2();
+    return (uint64_t)info.uordblks + (uint64_t)info.hblkhd;
+#else
+    return 0;
+#endif
+}
+
 static bool count_files(uint32_t *out)
 {
     uint32_t count = 0;
@@ -33,7 +47,7 @@ static bool count_files(uint32_t *out)
 
 nook_result nook_process_read(nook_process *out)
 {
-    nook_process process = { .resident = 0 };
+    nook_process process = { .heap = count_heap() };
     if (!read_resident(&process.resident) || !count_files(&process.files))
         return nook_fail(NOOK_E_IO, "/proc/self: what this process holds cannot be read here");
     *out = process;

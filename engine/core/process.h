@@ -9,7 +9,9 @@ extern "C" {
 /** What this process holds now. */
 typedef struct nook_process {
     uint64_t resident; /**< Bytes of memory. */
-    uint32_t files;    /**< Open ones. */
+    uint64_t
+        heap; /**< Bytes that were allocated and not freed, libraries' and drivers' too; 0: the C library does not tell. */
+    uint32_t files; /**< Open ones. */
 } nook_process;
 
 /** @return NOOK_E_IO the system does not tell (it has no /proc); *out is untouched then */

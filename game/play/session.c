@@ -25,7 +25,8 @@ static nook_result begin(nook_session *s)
     nook_physics_destroy(s->physics);
     s->physics = NULL;
     s->was_buttons = 0;
-    s->returned = 0;
+    for (uint32_t i = 0; i < s->thing_count; i++)
+        s->things[i].returned = (session_return){ .count = 0 };
     s->status = playing;
     s->ticks = s->end_tick = 0;
     s->open = 0;
@@ -188,7 +189,6 @@ nook_session_view nook_session_look(const nook_session *session)
                                .pitch = player->pitch,
                                .grounded = player->grounded,
                                .crouched = player->crouched,
-                               .returned = session->returned,
                                .hold_distance = carries ? session->carry.distance : 0.0,
                                .hold_below = (double)session->params.hold_below };
     for (uint32_t i = 0; i < session->desc.level->entity_count; i++)

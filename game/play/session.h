@@ -73,7 +73,6 @@ typedef struct nook_session_view {
     double eyes[3];        /**< The same. */
     double yaw, pitch;     /**< Radians; 0 looks along -z, + to the left, + up. */
     bool grounded, crouched;
-    uint32_t returned;    /**< Bodies that left the world in this try, and were brought back. */
     double hold_distance; /**< Level way from the eyes to where the middle of what is carried belongs; 0: nothing is. */
     double hold_below;    /**< How much lower that is than where the eyes look at that distance. */
 } nook_session_view;

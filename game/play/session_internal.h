@@ -8,6 +8,12 @@
 
 enum { NOOK_SHADE_RAYS = 256, NOOK_MESSAGE_SIZE = 320 };
 
+/** What left the world and was brought back. */
+typedef struct session_return {
+    uint32_t count;    /**< In this try. */
+    double left_at[3]; /**< Where it was the last time. */
+} session_return;
+
 /** A node with a body. */
 typedef struct session_thing {
     uint32_t node;   /**< Into scene->nodes. */
@@ -17,6 +23,7 @@ typedef struct session_thing {
     nook_pose start;            /**< Of the body: the node's place without its scale. */
     nook_matrix body_from_node; /**< What the pose lacks of the node's transform: scale and shear. */
     double half[3], middle[3];  /**< Of the box around what it draws, body space, metres. */
+    session_return returned;
 } session_thing;
 
 /** The state of an entity that opens: as many as the level has entities, the others unused. */
@@ -42,6 +49,7 @@ typedef struct session_player {
     nook_body ground;                                       /**< What it stands on. */
     double ground_height;                                   /**< Metres. */
     double ground_velocity[3];                              /**< Of what it stands on, there. */
+    session_return returned;
 } session_player;
 
 typedef struct session_carry {
@@ -68,7 +76,6 @@ struct nook_session {
     double placed_at;         /**< Seconds that its clips have run for, when nook_session_place was last called. */
     uint32_t looked_at;       /**< Into things, or NOOK_NONE. */
     uint32_t open;            /**< Locks that were open after the last tick. */
-    uint32_t returned;        /**< Bodies that were brought back in this try. */
     char message[NOOK_MESSAGE_SIZE];
     uint64_t message_until; /**< Tick; UINT64_MAX: for good. */
 };

@@ -134,10 +134,29 @@ bool session_is_outside(const nook_scene *scene, const double at[3])
     return outside;
 }
 
+static void note_return(session_return *returned, const double at[3])
+{
+    returned->count++;
+    memcpy(returned->left_at, at, sizeof returned->left_at);
+}
+
+static void return_player(nook_session *s)
+{
+    session_player *player = &s->player;
+    nook_pose start = nook_pose_identity();
+    if (!session_is_outside(s->desc.scene, player->feet))
+        return;
+    note_return(&player->returned, player->feet);
+    memcpy(start.position, s->desc.level->start, sizeof start.position);
+    nook_physics_set_pose(s->physics, player->body, &start);
+    memcpy(player->feet, start.position, sizeof player->feet);
+    memcpy(player->was_feet, start.position, sizeof player->was_feet);
+}
+
 void session_return_bodies(nook_session *s)
 {
     for (uint32_t i = 0; i < s->thing_count; i++) {
-        const session_thing *thing = &s->things[i];
+        session_thing *thing = &s->things[i];
         if (thing->motion != NOOK_BODY_DYNAMIC || nook_physics_asleep(s->physics, thing->body))
             continue;
         nook_pose pose = nook_physics_pose(s->physics, thing->body, 1.0);
@@ -145,15 +164,8 @@ void session_return_bodies(nook_session *s)
             continue;
         if (s->carry.thing == i)
             session_carry_drop(s);
+        note_return(&thing->returned, pose.position);
         nook_physics_set_pose(s->physics, thing->body, &thing->start);
-        s->returned++;
     }
-    if (session_is_outside(s->desc.scene, s->player.feet)) {
-        nook_pose start = nook_pose_identity();
-        memcpy(start.position, s->desc.level->start, sizeof start.position);
-        nook_physics_set_pose(s->physics, s->player.body, &start);
-        memcpy(s->player.feet, start.position, sizeof s->player.feet);
-        s->returned++;
-        memcpy(s->player.was_feet, start.position, sizeof s->player.was_feet);
-    }
+    return_player(s);
 }

@@ -50,10 +50,15 @@ static nook_result put(const nook_soak_code *code, const char *name)
                           nook_path_join(to, sizeof to, code->folder.path, file_name));
 }
 
+uint32_t nook_soak_code_turns(const nook_soak_code *code)
+{
+    return code->built[0] ? code->play.part_count + 2 : 0;
+}
+
 nook_result nook_soak_code_exchange(nook_soak_code *code)
 {
     char path[1200], text[64];
-    uint32_t count = code->play.part_count + 1, turn = code->asked % (count + 1);
+    uint32_t count = code->play.part_count + 1, turn = code->asked % (count + 1); /* the last: all */
     nook_result result = NOOK_OK;
     if (!code->built[0])
         return NOOK_OK;

@@ -17,6 +17,8 @@ typedef struct nook_soak_code {
 
 /** @param how  outlives it @return why the game cannot begin */
 nook_result nook_soak_code_open(const char *root, nook_play_window_desc *how, nook_soak_code *out_code);
+/** Exchanges until each library has been exchanged by itself, and all at once. @return 0: there are no libraries */
+uint32_t nook_soak_code_turns(const nook_soak_code *code);
 /** Puts one library, or all, where the host finds it in its next frame. @return NOOK_E_IO, NOOK_E_MEMORY */
 nook_result nook_soak_code_exchange(nook_soak_code *code);
 /** One frame. @return also NOOK_E_VERSION: code was refused, or the state was not kept */

@@ -1,30 +1,29 @@
 #include "game/play/soak_memory.h"
 
-static void take_least(uint64_t *least, uint64_t resident)
+enum { EARLY = 1, LATE = NOOK_SOAK_PARTS - 1 };
+
+void nook_soak_memory_add(nook_soak_memory *memory, uint32_t frame, uint32_t frames, uint64_t bytes)
 {
-    if (*least == 0 || resident < *least)
-        *least = resident;
+    const uint32_t part = (uint32_t)((uint64_t)(frame - 1) * NOOK_SOAK_PARTS / frames);
+    uint64_t *least = &memory->least[part];
+    if (*least == 0 || bytes < *least)
+        *least = bytes;
+    if (part >= EARLY && bytes > memory->most)
+        memory->most = bytes;
 }
 
-void nook_soak_memory_add(nook_soak_memory *memory, uint32_t frame, uint32_t frames, uint64_t resident)
+uint64_t nook_soak_memory_growth(const nook_soak_memory *memory)
 {
-    const uint32_t tenth = frames / 10;
-    if (frame <= tenth)
-        return;
-    if (frame <= 2 * tenth)
-        take_least(&memory->early, resident);
-    if (frame > frames - tenth)
-        take_least(&memory->late, resident);
-    if (resident > memory->most)
-        memory->most = resident;
+    uint64_t early = memory->least[EARLY], late = memory->least[LATE];
+    return late > early ? late - early : 0;
 }
 
-uint64_t nook_soak_memory_allowed(const nook_soak_memory *memory)
+bool nook_soak_memory_holds(const nook_soak_memory *memory, uint64_t allowed)
 {
-    return memory->early / 50 + (4u << 20);
+    return memory->least[EARLY] > 0 && memory->least[LATE] > 0 && nook_soak_memory_growth(memory) <= allowed;
 }
 
-bool nook_soak_memory_holds(const nook_soak_memory *memory)
+uint64_t nook_soak_resident_allowed(const nook_soak_memory *resident)
 {
-    return memory->early > 0 && memory->late > 0 && memory->late <= memory->early + nook_soak_memory_allowed(memory);
+    return resident->least[EARLY] / 50 + (4u << 20);
 }

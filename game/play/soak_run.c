@@ -11,6 +11,7 @@
 /* How often what happens, in frames: numbers without a common factor, so that everything meets everything. */
 enum {
     THROW_EVERY = 23,
+    THROWN_AT_ONCE = 4,
     EXCHANGE_EVERY = 307,
     RELOAD_EVERY = 499,
     RESIZE_EVERY = 1201,
@@ -25,7 +26,7 @@ typedef struct soak {
     nook_play_window *window; /**< Its state, which is kept. */
     nook_soak_report *report;
     uint32_t random;
-    uint32_t frames, warm; /**< Of the whole run; until the process is first looked at. */
+    uint32_t frames, warm; /**< Of the whole run; of its first part, in which everything happens once. */
     float *visibility;
     size_t visibility_count;
 } soak;
@@ -41,24 +42,29 @@ static double random_between(soak *s, double low, double high)
     return low + (high - low) * random_bits(s) / 16777216.0;
 }
 
-/* Throws some of the level's bodies in any direction, upwards more than down. */
-static void throw_bodies(soak *s)
+/* Throws what a node draws in any direction, upwards more than down, when it is a body that can be thrown. */
+static void throw_body(soak *s, const nook_node *node)
+{
+    nook_session *session = s->window->play.session;
+    nook_physics *physics = nook_session_physics(session);
+    nook_body body = nook_session_body_of(session, node->name);
+    if (body.id == 0 || nook_physics_mass(physics, body) == 0.0)
+        return;
+    const double linear[3] = { random_between(s, -throw_speed, throw_speed),
+                               random_between(s, -0.3 * throw_speed, throw_speed),
+                               random_between(s, -throw_speed, throw_speed) };
+    const double angular[3] = { random_between(s, -6, 6), random_between(s, -6, 6), random_between(s, -6, 6) };
+    nook_physics_set_velocity(physics, body, linear, angular);
+    s->report->throws++;
+}
+
+/* All of the level's bodies at first, then some of them. */
+static void throw_bodies(soak *s, uint32_t frame)
 {
     const nook_scene *scene = s->window->stage.scene;
-    nook_session *session = s->window->play.session;
-    for (int i = 0; i < 4; i++) {
-        const nook_node *node = &scene->nodes[random_bits(s) % scene->node_count];
-        nook_body body = nook_session_body_of(session, node->name);
-        nook_physics *physics = nook_session_physics(session);
-        if (body.id == 0 || nook_physics_mass(physics, body) == 0.0)
-            continue;
-        const double linear[3] = { random_between(s, -throw_speed, throw_speed),
-                                   random_between(s, -0.3 * throw_speed, throw_speed),
-                                   random_between(s, -throw_speed, throw_speed) };
-        const double angular[3] = { random_between(s, -6, 6), random_between(s, -6, 6), random_between(s, -6, 6) };
-        nook_physics_set_velocity(physics, body, linear, angular);
-        s->report->throws++;
-    }
+    uint32_t count = frame == 1 ? scene->node_count : frame % THROW_EVERY == 0 ? THROWN_AT_ONCE : 0;
+    for (uint32_t i = 0; i < count; i++)
+        throw_body(s, &scene->nodes[frame == 1 ? i : random_bits(s) % scene->node_count]);
 }
 
 /* The player walks, looks around, jumps, takes and throws as chance has it. */
@@ -98,7 +104,9 @@ static nook_result look_at_process(soak *s, uint32_t frame)
     if (result != NOOK_OK)
         return result;
     nook_soak_report *report = s->report;
-    nook_soak_memory_add(&report->memory, frame, s->frames, process.resident);
+    nook_soak_memory_add(&report->resident, frame, s->frames, process.resident);
+    if (process.heap > 0)
+        nook_soak_memory_add(&report->heap, frame, s->frames, process.heap);
     if (frame <= s->warm)
         report->files[0] = process.files;
     report->files[1] = process.files;
@@ -124,23 +132,35 @@ static nook_result resize(soak *s)
     return result;
 }
 
+/* Those that happen once while it warms up, in this order: each library exchanged and all of them, then the others. */
+enum { WARM_RELOAD = 1, WARM_RESIZE, WARM_RESTART, WARM_OTHERS = WARM_RESTART };
+
+/* Whether one of `count` in a row of warming up is due, beginning with `first`: they are spread evenly over that time. */
+static bool warms_up(const soak *s, uint32_t frame, uint32_t first, uint32_t count)
+{
+    const uint64_t slots = nook_soak_code_turns(s->code) + WARM_OTHERS + 1;
+    for (uint32_t i = first; i < first + count; i++) {
+        if (frame == (uint64_t)(i + 1) * s->warm / slots)
+            return true;
+    }
+    return false;
+}
+
 /* What happens in this frame beside the game. */
 static nook_result disturb(soak *s, uint32_t frame)
 {
-    nook_play_window *w = s->window;
+    const uint32_t turns = nook_soak_code_turns(s->code);
     nook_result result = NOOK_OK;
-    if (frame % THROW_EVERY == 0)
-        throw_bodies(s);
-    if (frame % RESTART_EVERY == 0) {
-        s->report->returned += nook_session_look(w->play.session).returned;
-        w->restart = true;
+    throw_bodies(s, frame);
+    if (frame % RESTART_EVERY == 0 || warms_up(s, frame, turns + WARM_RESTART - 1, 1)) {
+        s->window->restart = true;
         s->report->restarts++;
     }
-    if (frame % EXCHANGE_EVERY == 0)
+    if (frame % EXCHANGE_EVERY == 0 || warms_up(s, frame, 0, turns))
         result = nook_soak_code_exchange(s->code);
-    if (result == NOOK_OK && frame % RELOAD_EVERY == 0)
+    if (result == NOOK_OK && (frame % RELOAD_EVERY == 0 || warms_up(s, frame, turns + WARM_RELOAD - 1, 1)))
         result = reload(s);
-    if (result == NOOK_OK && frame % RESIZE_EVERY == 0)
+    if (result == NOOK_OK && (frame % RESIZE_EVERY == 0 || warms_up(s, frame, turns + WARM_RESIZE - 1, 1)))
         result = resize(s);
     return result;
 }
@@ -151,12 +171,24 @@ static nook_result run_frame(soak *s, uint32_t frame)
     s->window->controls.held = random_input(s);
     if (result == NOOK_OK)
         result = nook_soak_code_frame(s->code);
+    if (result == NOOK_OK)
+        result = nook_soak_bodies_look(&s->report->bodies, s->window->play.session);
     if (result == NOOK_OK && frame % LOOK_EVERY == 0)
         result = look_at_pixels(s);
-    if (result == NOOK_OK && (frame == s->warm || (frame > s->warm && frame % COUNT_EVERY == 0)))
+    if (result == NOOK_OK && (frame == s->warm || frame % COUNT_EVERY == 0))
         result = look_at_process(s, frame);
     s->report->frames = frame;
     return result;
+}
+
+/*
+ * Mesa's llvmpipe keeps a list of what is to be drawn for each pass that its threads have not come to, up to 64, and what these lists
+ * have grown to: 147.9 MiB of heap become anything up to 190, as the machine is busy. Without threads there is one list, and memory is
+ * the same from frame to frame to a few kilobytes.
+ */
+static void draw_without_threads(void)
+{
+    setenv("LP_NUM_THREADS", "0", 0);
 }
 
 nook_result nook_soak_run(const char *root, const nook_soak_desc *desc, nook_soak_report *out_report)
@@ -166,6 +198,7 @@ nook_result nook_soak_run(const char *root, const nook_soak_desc *desc, nook_soa
     how.driven = true;
     how.frame_seconds = NOOK_PHYSICS_STEP * (1.0 + 1e-9); /* so that rounding makes no frame without a tick */
     *out_report = (nook_soak_report){ .frames = 0 };
+    draw_without_threads();
     nook_result result = nook_soak_code_open(root, &how, &code);
     if (result != NOOK_OK)
         return result;
@@ -175,7 +208,7 @@ nook_result nook_soak_run(const char *root, const nook_soak_desc *desc, nook_soa
                .report = out_report,
                .random = desc->seed,
                .frames = desc->frames,
-               .warm = desc->frames / 10 };
+               .warm = desc->frames / NOOK_SOAK_PARTS };
     nook_progress progress = nook_progress_begin("soak");
     double start = nook_clock_ms();
     nook_interrupt_hold();
@@ -184,10 +217,10 @@ nook_result nook_soak_run(const char *root, const nook_soak_desc *desc, nook_soa
         nook_progress_update(&progress, (double)frame / desc->frames);
     }
     nook_progress_end(&progress);
-    out_report->returned += nook_session_look(window->play.session).returned;
     out_report->exchanges = code.asked;
     out_report->seconds = (nook_clock_ms() - start) / 1000.0;
     free(s.visibility);
+    nook_soak_bodies_free(&out_report->bodies);
     nook_result closed = nook_soak_code_close(&code);
     nook_interrupt_answer(); /* the report says how far it came */
     nook_interrupt_release();
@@ -196,6 +229,9 @@ nook_result nook_soak_run(const char *root, const nook_soak_desc *desc, nook_soa
 
 bool nook_soak_holds(const nook_soak_report *report)
 {
-    return report->wrong == 0 && report->returned == 0 && report->pixels > 0 && report->files[1] <= report->files[0] &&
-           nook_soak_memory_holds(&report->memory);
+    bool heap_is_known = report->heap.most > 0;
+    return report->wrong == 0 && report->bodies.through == 0 && report->pixels > 0 &&
+           report->files[1] <= report->files[0] &&
+           (!heap_is_known || nook_soak_memory_holds(&report->heap, NOOK_SOAK_HEAP_ALLOWED)) &&
+           nook_soak_memory_holds(&report->resident, nook_soak_resident_allowed(&report->resident));
 }
