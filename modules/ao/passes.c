@@ -99,6 +99,25 @@ static nook_result filter_direct(nook_ao *ao)
     return dispatch_full(ao, "shaders/ao/filter.comp.glsl", "");
 }
 
+/** Blocks of scale x scale pixels, from half a trace pixel on, that hold pixels begin to end - 1 of an axis: shaders/ao/upscale.comp.glsl. */
+static uint32_t count_blocks(int32_t begin, int32_t end, int32_t scale)
+{
+    return (uint32_t)((end - 1 + scale / 2) / scale - (begin + scale / 2) / scale + 1);
+}
+
+/** Brings the filtered trace back to full size. */
+static nook_result upscale(nook_ao *ao, int has_normal)
+{
+    static const char *const path = "shaders/ao/upscale.comp.glsl";
+    const ao_region *region = &ao->recorded;
+    const int32_t scale = 1 << ao->scale;
+    if (ao->shared.upscale != UPSCALE_BILINEAR)
+        return dispatch_full(ao, path, has_normal ? "#define HAS_NORMAL\n" : "");
+    return ao_dispatch_over(ao, path, has_normal ? "#define HAS_NORMAL\n#define BILINEAR\n" : "#define BILINEAR\n",
+                            count_blocks(region->full_begin[0], region->full_end[0], scale),
+                            count_blocks(region->full_begin[1], region->full_end[1], scale));
+}
+
 /** Where the picture has 4 or 16 times the pixels of the trace, most of the filter's work is done once for all of them. */
 static nook_result filter_stepped(nook_ao *ao, const nook_ao_frame *frame)
 {
@@ -116,10 +135,7 @@ static nook_result filter_stepped(nook_ao *ao, const nook_ao_frame *frame)
     bind_host(ao, frame);
     nook_bind_texture(ao->gpu, 2, trace->filtered);
     nook_bind_image(ao->gpu, 0, ao->targets.visibility, GL_WRITE_ONLY);
-    char defines[48];
-    snprintf(defines, sizeof defines, "%s%s", frame->normal.native ? "#define HAS_NORMAL\n" : "",
-             ao->shared.upscale == UPSCALE_BILINEAR ? "#define BILINEAR\n" : "");
-    result = dispatch_full(ao, "shaders/ao/upscale.comp.glsl", defines);
+    result = upscale(ao, frame->normal.native != 0);
     release_host(ao);
     return result;
 }

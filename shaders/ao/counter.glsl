@@ -62,11 +62,10 @@ float bounded(float visibility)
 }
 
 #ifdef COUNTING
-// Only of pixels that are wanted. No two invocations of a dispatch share one.
-void add_to_pixels(ivec2 first, int side)
+// Only of pixels that are wanted. No two invocations of a dispatch share one. `share`: of each, in FETCH_UNITS.
+void add_to_pixels(ivec2 first, int side, uint share)
 {
     ivec2 begin = max(first, frame.full_begin), end = min(first + side, frame.full_end);
-    uint share = fetches * FETCH_UNITS / uint(side * side);
     for (int y = begin.y; y < end.y; y++) {
         for (int x = begin.x; x < end.x; x++)
             imageStore(fetch_image, ivec2(x, y), uvec4(imageLoad(fetch_image, ivec2(x, y)).r + share));
@@ -96,7 +95,7 @@ void add_counts_of(ivec2 first, int side)
     if ((frame.counting & COUNT_SUMS) != 0)
         add_to_sums();
     if ((frame.counting & COUNT_PIXELS) != 0 && fetches > 0u)
-        add_to_pixels(first, side);
+        add_to_pixels(first, side, fetches * FETCH_UNITS / uint(side * side));
 #endif
 }
 

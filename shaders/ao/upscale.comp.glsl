@@ -1,7 +1,8 @@
 // Joint bilateral upscaling of the filtered trace (Kopf et al. 2007): of the four trace pixels around each full-resolution pixel,
 // bilinear weights times how much each lies on the pixel's surface; where none does, all around have a say. Defines: HAS_NORMAL,
 // the host gives normals; to rebuild them too, just in case, would cost a software driver as much as if all were rebuilt. BILINEAR,
-// only the four have a say, by weights without exponentials.
+// only the four have a say, by weights without exponentials; an invocation then upscales the block of pixels between four trace pixels,
+// so that each of these is read once for all of them.
 #include "ao/guide.glsl"
 #include "ao/host.glsl"
 layout(local_size_x = 16, local_size_y = 8) in;
@@ -27,30 +28,101 @@ vec3 sample_position(ivec2 q, vec3 normal_depth, out float inverse)
     return view_position(q, square * inverse);
 }
 
+vec3 guide_normal(ivec2 p, vec3 position)
+{
+#ifdef HAS_NORMAL
+    vec3 normal;
+    return given_normal(p, normal) ? normal : -normalize(position);
+#else
+    return rebuilt_normal(p, -position.z);
+#endif
+}
+
 #ifdef BILINEAR
+struct Corner {
+    vec3 normal_depth, position;
+    float inverse, visibility;
+};
+
+Corner read_corner(ivec2 q)
+{
+    vec4 texel = fetch_trace(filtered_trace, q);
+    Corner corner;
+    corner.normal_depth = texel.xyz;
+    corner.position = sample_position(q, texel.xyz, corner.inverse);
+    corner.visibility = texel.w;
+    return corner;
+}
+
 // The sums of both kinds of weight: those of filter.comp.glsl, nearly, and by the plane alone. Where no sample lies on the pixel's own
 // surface (the bottom of a joint that the trace has jumped over) the second is the answer; where none sees anything the pixel is open.
-float upscaled(vec2 centre, Guide guide)
+float upscaled(Corner corners[4], vec2 part, Guide guide)
 {
     Mean strict = Mean(1.0, 0.0, 0.0), loose = Mean(1.0, 0.0, 0.0);
-    ivec2 base = ivec2(floor(centre));
-    vec2 part = centre - vec2(base);
     for (int i = 0; i < 4; i++) {
-        ivec2 step = ivec2(i & 1, i >> 1), q = clamp(base + step, ivec2(0), frame.size - 1);
-        vec2 near = mix(1.0 - part, part, vec2(step));
-        vec4 texel = fetch_trace(filtered_trace, q);
-        float inverse, plane = plane_distance(guide, sample_position(q, texel.xyz, inverse)), square = plane * plane;
-        float facing = max(dot(guide.normal, texel.xyz) * inverse, 0.0), slant = facing * facing;
-        float window = texel.xyz != vec3(0.0) && plane < 1e9 ? near.x * near.y + 1e-4 : 0.0;
+        Corner corner = corners[i];
+        vec2 near = mix(1.0 - part, part, vec2(i & 1, i >> 1));
+        float plane = plane_distance(guide, corner.position), square = plane * plane;
+        float facing = max(dot(guide.normal, corner.normal_depth) * corner.inverse, 0.0), slant = facing * facing;
+        float window = corner.normal_depth != vec3(0.0) && plane < 1e9 ? near.x * near.y + 1e-4 : 0.0;
         slant *= slant;
         slant *= slant; // to the 8th
         float weight = slant / (1.0 + square * (1.0 + square * (0.5 + square)));
-        add(strict, texel.w, weight >= WEIGHT_MIN ? weight * window : 0.0);
-        add(loose, texel.w, window / (1.0 + square));
+        add(strict, corner.visibility, weight >= WEIGHT_MIN ? weight * window : 0.0);
+        add(loose, corner.visibility, window / (1.0 + square));
     }
     if (!(strict.weights > 0.0))
         strict = loose;
     return strict.reference + (strict.weights > 0.0 ? strict.sum / strict.weights : 0.0);
+}
+
+void upscale_pixel(Corner corners[4], vec2 part, ivec2 p)
+{
+    float depth = distance_at(p), result = 1.0;
+    if (depth > 0.0) {
+        vec3 position = full_ray(vec2(p)) * depth;
+        result = bounded(upscaled(corners, part, make_guide(position, guide_normal(p, position))));
+    }
+    imageStore(visibility_out, p, vec4(result));
+#ifdef COUNTING
+    add_seen(depth);
+#endif
+}
+
+// The pixels whose trace_centre() lies between `base` and the trace pixel above and to the right of it; modules/ao/passes.c counts them.
+void main()
+{
+    int side = frame.scale;
+    ivec2 base = (frame.full_begin + side / 2) / side - 1 + ivec2(gl_GlobalInvocationID.xy);
+    ivec2 first = base * side + side / 2;
+    if (any(greaterThanEqual(first, frame.full_end)))
+        return;
+    Corner corners[4];
+    for (int i = 0; i < 4; i++)
+        corners[i] = read_corner(clamp(base + ivec2(i & 1, i >> 1), ivec2(0), frame.size - 1));
+#ifdef COUNTING
+    ivec2 inside = min(first + side, frame.full_size) - max(first, ivec2(0)); // of the picture, also where only a part is wanted
+    uint shared_units = fetches * FETCH_UNITS / uint(inside.x * inside.y);
+#endif
+    for (int y = 0; y < side; y++) {
+        for (int x = 0; x < side; x++) {
+            ivec2 p = first + ivec2(x, y);
+            if (any(lessThan(p, frame.full_begin)) || any(greaterThanEqual(p, frame.full_end)))
+                continue;
+#ifdef COUNTING
+            uint before = fetches;
+#endif
+            upscale_pixel(corners, vec2(x, y) / float(side), p);
+#ifdef COUNTING
+            if ((frame.counting & COUNT_PIXELS) != 0)
+                add_to_pixels(p, 1, shared_units + (fetches - before) * FETCH_UNITS);
+#endif
+        }
+    }
+#ifdef COUNTING
+    if ((frame.counting & COUNT_SUMS) != 0)
+        add_to_sums();
+#endif
 }
 #else
 // filter.comp.glsl's weight in one exponential. 0 where there is no geometry; always a number.
@@ -105,17 +177,6 @@ float upscaled(vec2 centre, Guide guide)
     add_around(mean, guide, centre);
     return mean.reference + (mean.weights > 0.0 ? mean.sum / mean.weights : 0.0);
 }
-#endif
-
-vec3 guide_normal(ivec2 p, vec3 position)
-{
-#ifdef HAS_NORMAL
-    vec3 normal;
-    return given_normal(p, normal) ? normal : -normalize(position);
-#else
-    return rebuilt_normal(p, -position.z);
-#endif
-}
 
 void main()
 {
@@ -133,3 +194,4 @@ void main()
 #endif
     add_counts_of(p, 1);
 }
+#endif
