@@ -22,17 +22,19 @@ static nook_program choose_program(nook_renderer *renderer, const void *user, co
     const gbuffer_round *round = user;
     const nook_frame *frame = round->frame;
     uint32_t kind = (masked ? GBUFFER_MASKED : 0u) | (frame->quick ? GBUFFER_QUICK : 0u) |
-                    (frame->scene->has_tangents ? 0u : GBUFFER_NO_TANGENTS);
+                    (frame->scene->has_tangents ? 0u : GBUFFER_NO_TANGENTS) |
+                    (frame->quick && !frame->scene->has_colours ? GBUFFER_NO_COLOURS : 0u);
     nook_program *program = &renderer->gbuffer_programs[kind][material->image_set];
     if (material->emits != round->emits)
         return (nook_program){ 0 };
     if (program->handle != 0)
         return *program;
     char defines[DEFINES_SIZE];
-    snprintf(defines, sizeof defines, "#define IMAGES %uu\n%s%s%s%s", material->image_set,
+    snprintf(defines, sizeof defines, "#define IMAGES %uu\n%s%s%s%s%s", material->image_set,
              kind & GBUFFER_MASKED ? "#define MASKED\n" : "", kind & GBUFFER_QUICK ? "#define QUICK\n" : "",
              is_encoded(renderer, frame) ? "#define ENCODED\n" : "",
-             kind & GBUFFER_NO_TANGENTS ? "#define NO_TANGENTS\n" : "");
+             kind & GBUFFER_NO_TANGENTS ? "#define NO_TANGENTS\n" : "",
+             kind & GBUFFER_NO_COLOURS ? "#define NO_COLOURS\n" : "");
     if (nook_program_raster(renderer->gpu, "shaders/render/surface.vert.glsl", "shaders/render/gbuffer.frag.glsl",
                             defines, program) != NOOK_OK)
         return masked ? renderer->gbuffer_masked_program : renderer->gbuffer_program;

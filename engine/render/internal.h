@@ -99,7 +99,7 @@ struct nook_render_scene {
     const nook_scene *scene; /* borrowed */
     nook_buffer vertices, indices, triangle_normals;
     nook_buffer materials;            /* one every MATERIAL_STRIDE bytes */
-    bool has_tangents;                /* some vertex has */
+    bool has_tangents, has_colours;   /* some vertex has; a colour that is not white */
     render_primitive *primitives;     /* as scene->primitives */
     render_material *material_images; /* as scene->materials */
     nook_texture *textures;           /* owned: every image that is used, once per encoding */
@@ -194,7 +194,7 @@ typedef struct shadow_contents {
 } shadow_contents;
 
 /** What G-buffer programs are compiled for, besides a material's images. */
-enum { GBUFFER_MASKED = 1, GBUFFER_QUICK = 2, GBUFFER_NO_TANGENTS = 4, GBUFFER_KINDS = 8 };
+enum { GBUFFER_MASKED = 1, GBUFFER_QUICK = 2, GBUFFER_NO_TANGENTS = 4, GBUFFER_NO_COLOURS = 8, GBUFFER_KINDS = 16 };
 
 struct nook_renderer {
     nook_gpu *gpu;

@@ -65,6 +65,16 @@ static bool has_tangents(const nook_scene *scene)
     return some;
 }
 
+static bool has_colours(const nook_scene *scene)
+{
+    bool some = false;
+    for (uint32_t i = 0; i < scene->vertex_count && !some; i++) {
+        const float *c = scene->vertices[i].colour;
+        some = c[0] != 1.0f || c[1] != 1.0f || c[2] != 1.0f || c[3] != 1.0f;
+    }
+    return some;
+}
+
 static nook_result upload(nook_render_scene *s, const void *data, size_t size, nook_buffer *out)
 {
     static const uint32_t nothing[4] = { 0 };
@@ -100,6 +110,7 @@ static nook_result upload_geometry(nook_render_scene *s)
         triangle += primitive->index_count / 3;
     }
     s->has_tangents = has_tangents(scene);
+    s->has_colours = has_colours(scene);
     nook_result result = upload(s, normals, triangle_count * 3 * sizeof *normals, &s->triangle_normals);
     free(normals);
     if (result == NOOK_OK)

@@ -1,6 +1,7 @@
 // The material of a draw. Bindings: uniform 2 the material, textures 0 - 4, location 0 the draw. Defines: IMAGES, the
 // MATERIAL_*_IMAGE that it has, where the program is compiled for them; ENCODED, sRGB images come as they are stored; what stands in an if costs a software driver in any case.
 #pragma once
+#include "render/tone.glsl"
 struct Material {
     vec4 base_colour;
     vec4 emissive_cutoff; // w: alpha below which a masked surface is cut
@@ -33,6 +34,11 @@ bool has_image(uint image)
 #else
     return (drawn.flags.x & image) != 0u;
 #endif
+}
+
+vec4 encoded_colour(vec4 linear)
+{
+    return vec4(srgb_encode(clamp(linear.rgb, 0.0, 1.0)), linear.a);
 }
 
 // colour: of the vertices; with ENCODED that times the material's, and all colours are sRGB

@@ -1,6 +1,6 @@
 // A surface point as the fragment shaders of geometry passes see it: material and both normals.
 // Bindings: those of material.glsl, storage 2 triangle normals. Defines: IMAGES of material.glsl; NO_TANGENTS, the vertices have
-// none; QUICK, the triangle's normal is that of the neighbouring pixels' positions: right to about 1e-4 instead of exact; ENCODED of material.glsl, the base colour is sRGB.
+// none; NO_COLOURS, their colours are white; QUICK, the triangle's normal is that of the neighbouring pixels' positions: right to about 1e-4 instead of exact; ENCODED of material.glsl, the base colour is sRGB.
 #pragma once
 #include "render/frame.glsl"
 #include "render/material.glsl"
@@ -12,7 +12,13 @@ layout(location = 1) in vec3 surface_normal_world;
 layout(location = 2) in vec4 surface_tangent_world;
 #endif
 layout(location = 3) in vec2 surface_uv;
+#ifndef NO_COLOURS
 layout(location = 4) in vec4 surface_colour;
+#elif defined(ENCODED)
+vec4 surface_colour = encoded_colour(drawn.base_colour);
+#else
+const vec4 surface_colour = vec4(1.0);
+#endif
 #ifndef QUICK
 layout(location = 5) flat in mat3 surface_world_normal_from_mesh;
 

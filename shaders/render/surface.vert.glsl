@@ -8,7 +8,9 @@ layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 tangent;
 layout(location = 3) in vec2 uv;
+#ifndef NO_COLOURS
 layout(location = 4) in vec4 colour;
+#endif
 layout(location = 5) in mat4 view_from_mesh;
 layout(location = 9) in vec4 world_normal_from_mesh_0; // w: -1 when the transform mirrors
 layout(location = 10) in vec4 world_normal_from_mesh_1;
@@ -20,7 +22,9 @@ layout(location = 1) out vec3 surface_normal_world;
 layout(location = 2) out vec4 surface_tangent_world;
 #endif
 layout(location = 3) out vec2 surface_uv;
+#ifndef NO_COLOURS
 layout(location = 4) out vec4 surface_colour;
+#endif
 #ifndef QUICK
 layout(location = 5) flat out mat3 surface_world_normal_from_mesh;
 #endif
@@ -37,9 +41,9 @@ void main()
     surface_tangent_world.w = tangent.w * world_normal_from_mesh_0.w;
 #endif
     surface_uv = uv;
-#ifdef ENCODED
-    vec4 product = drawn.base_colour * colour;
-    surface_colour = vec4(srgb_encode(clamp(product.rgb, 0.0, 1.0)), product.a);
+#ifdef NO_COLOURS
+#elif defined(ENCODED)
+    surface_colour = encoded_colour(drawn.base_colour * colour);
 #else
     surface_colour = colour;
 #endif
