@@ -55,7 +55,8 @@ enum { TEXTURE_SRGB_DECODE = 0x8A48, SKIP_DECODE = 0x8A4A /* GL_EXT_texture_sRGB
 
 /**
  * Bilinear in the nearest level: on software GL half of trilinear, and a quarter of anisotropic. Colours stay as they are encoded: they
- * go into the G-buffer so, and a software driver decodes each of four texels, filters in float and encodes again.
+ * go into the G-buffer so, and a software driver decodes each of four texels, filters in float and encodes again. The level is rounded
+ * down, to the sharper of the two that trilinear mixes: rounded to the nearest, walls are blurred (docs/measurements.md).
  */
 static void create_quick_sampler(nook_renderer *r)
 {
@@ -63,6 +64,7 @@ static void create_quick_sampler(nook_renderer *r)
     gl->CreateSamplers(1, &r->quick_sampler);
     gl->SamplerParameteri(r->quick_sampler, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
     gl->SamplerParameteri(r->quick_sampler, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    gl->SamplerParameterf(r->quick_sampler, GL_TEXTURE_LOD_BIAS, -0.5f);
     gl->SamplerParameteri(r->quick_sampler, GL_TEXTURE_WRAP_S, GL_REPEAT);
     gl->SamplerParameteri(r->quick_sampler, GL_TEXTURE_WRAP_T, GL_REPEAT);
     if (r->gpu->skips_srgb_decode)

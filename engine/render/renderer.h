@@ -75,7 +75,7 @@ typedef struct nook_frame {
     nook_camera camera;
     const nook_lights *lights;
     bool
-        quick; /**< For play, not for measuring: material images in their nearest mip level, not anisotropic, filtered and
+        quick; /**< For play, not for measuring: material images in the sharper of two mip levels, not anisotropic, filtered and
                      multiplied as sRGB stores colours, and the triangles' normals from the positions of neighbouring pixels, right to about 1e-4. */
     bool
         cull_back_faces; /**< true: single-sided materials are not seen from behind, as glTF has it. false: every surface

@@ -142,8 +142,8 @@ static void test_quick_normals_of_edge_on_planes_and_slivers_are_those_of_the_ex
     assert_true(seen > 40 * SIZE * SIZE / 2);
 }
 
-/** A facing quad whose colours are products of all that a material can have. */
-static void make_product(void **state, test_scene *scene, test_picture *picture, const uint8_t *image)
+/** A facing quad whose colours are products of all that a material can have. @param white  its vertices are */
+static void make_product(void **state, test_scene *scene, test_picture *picture, const uint8_t *image, bool white)
 {
     test_scene_init(scene);
     uint32_t quad = test_scene_add_facing(scene, 4.0f, -2.0f);
@@ -153,7 +153,7 @@ static void make_product(void **state, test_scene *scene, test_picture *picture,
     material->base_colour_image = material->emissive_image = 0;
     memcpy(material->base_colour, (float[4]){ 0.8f, 0.5f, 1.0f, 1.0f }, 16);
     memcpy(material->emissive, (float[3]){ 0.9f, 0.4f, 0.7f }, 12);
-    for (uint32_t i = 0; i < scene->scene.vertex_count; i++)
+    for (uint32_t i = 0; i < scene->scene.vertex_count && !white; i++)
         memcpy(scene->scene.vertices[i].colour, (float[4]){ 0.9f, 0.7f, 0.6f, 1.0f }, 16);
     test_picture_create(picture, test_gpu_of(state), scene, 8, 8);
 }
@@ -162,13 +162,13 @@ static void test_quick_frame_has_colours_and_emission_within_five_of_255_of_the_
 {
     static const nook_view views[2] = { NOOK_VIEW_BASE_COLOUR, NOOK_VIEW_EMISSIVE };
     uint8_t image[2 * 2 * 4];
-    for (int level = 40; level < 256; level += 30) {
+    for (int level = 40; level < 256; level += 15) {
         test_scene scene;
         test_picture picture;
         for (int i = 0; i < 16; i++)
             image[i] =
                 (uint8_t)(i % 4 == 3 ? 255 : level + i % 4); /* one colour: what a filter does is not asked here */
-        make_product(state, &scene, &picture, image);
+        make_product(state, &scene, &picture, image, level % 2 == 0);
         for (int k = 0; k < 2; k++) {
             uint8_t exact[3];
             picture.frame.quick = false;
@@ -187,6 +187,46 @@ static void test_quick_frame_has_colours_and_emission_within_five_of_255_of_the_
     }
 }
 
+enum { STRIPES = 120 };
+
+/** How far the picture's pixels are from their mean, of 255. */
+static double contrast_of(test_picture *picture)
+{
+    double sum = 0.0, apart = 0.0;
+    test_picture_render(picture, NOOK_VIEW_BASE_COLOUR);
+    for (uint32_t i = 0; i < SIZE * SIZE; i++)
+        sum += picture->pixels[i * 3];
+    for (uint32_t i = 0; i < SIZE * SIZE; i++)
+        apart += fabs(picture->pixels[i * 3] - sum / (SIZE * SIZE));
+    return apart / (SIZE * SIZE);
+}
+
+/** Stripes one texel wide, of which the next level of the image is an even grey. */
+static void test_quick_frame_blurs_no_image_that_is_seen_smaller_than_it_is_more_than_the_exact_one(void **state)
+{
+    static uint8_t image[STRIPES * STRIPES * 4];
+    for (uint32_t width = SIZE + 8; width <= STRIPES;
+         width += 8) { /* texels over the picture: less than two each pixel */
+        test_scene scene;
+        test_picture picture;
+        for (uint32_t i = 0; i < width * width * 4; i++)
+            image[i] = i % 4 == 3 || i / 4 % width % 2 == 1 ? 255 : 0;
+        test_scene_init(&scene);
+        uint32_t quad = test_scene_add_facing(&scene, 1.0f, -1.0f);
+        scene.images[0] = (nook_image){ .width = width, .height = width, .pixels = image };
+        scene.scene.image_count = 1;
+        scene.materials[quad].base_colour_image = 0;
+        test_picture_create(&picture, test_gpu_of(state), &scene, SIZE, SIZE);
+        double exact = contrast_of(&picture);
+        picture.frame.quick = true;
+        double quick = contrast_of(&picture);
+        assert_true(exact > 1.0);
+        if (!(quick >= exact))
+            fail_msg("%u texels over %d pixels: a contrast of %.3g, exact %.3g", width, SIZE, quick, exact);
+        test_picture_destroy(&picture);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -194,6 +234,7 @@ int main(void)
         cmocka_unit_test(test_quick_frame_shows_the_materials_and_leaves_the_exact_one_as_it_was),
         cmocka_unit_test(test_quick_normals_of_edge_on_planes_and_slivers_are_those_of_the_exact_frame),
         cmocka_unit_test(test_quick_frame_has_colours_and_emission_within_five_of_255_of_the_exact_one),
+        cmocka_unit_test(test_quick_frame_blurs_no_image_that_is_seen_smaller_than_it_is_more_than_the_exact_one),
     };
     return cmocka_run_group_tests(tests, test_gpu_setup, test_gpu_teardown);
 }
