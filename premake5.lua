@@ -98,6 +98,7 @@ table.sort(techniques)
 for _, folder in ipairs(techniques) do library("nook_" .. path.getname(folder), c_project, folder, "/**.c") end
 library("nook_fixture", c_project, "modules/fixture", "/**.c")
 library("nook_measure", c_project, "modules/measure", "/**.c")
+library("nook_plan", c_project, "modules/plan", "/**.c")
 library("nook_render", c_project, "engine/render", "/**.c")
 library("nook_game", c_project, "game", "/**.c")
 removefiles { "game/main.c", "game/entry/*.c" } -- of nook_game, the last project made

@@ -138,8 +138,9 @@ nook_result nook_stage_fill(nook_stage *stage, const nook_game_world_desc *desc)
         nook_game_world_destroy(stage->world);
         result = nook_game_world_create(stage->scene, &stage->world);
     }
+    const nook_volumes_plan plan = { stage->plan, stage->plays, nook_game_world_multiplies(stage->ao) };
     if (result == NOOK_OK)
-        result = nook_game_world_bake(stage->world, stage->ao, desc);
+        result = nook_game_world_bake(stage->world, stage->ao, desc, &plan);
     stage->filled = result == NOOK_OK;
     stage->volumes = *desc;
     nook_ao_set_supply(stage->ao, supply_volumes, stage);

@@ -2,6 +2,7 @@
 #include "engine/core/file.h"
 #include "engine/core/log.h"
 #include "engine/core/vector.h"
+#include "game/plan/plan_apply.h"
 #include <cglm/cglm.h>
 #include <math.h>
 #include <stdio.h>
@@ -76,14 +77,21 @@ static void append_primitive(const nook_scene *scene, const nook_primitive *prim
     }
 }
 
-static void append_mesh(const nook_scene *scene, const nook_mesh *mesh, const nook_matrix *space,
-                        nook_scene_volume *volume)
+/* Appends what of it came to `parts`, as one each, unless that is NULL. @return how many */
+static uint32_t append_mesh(const nook_scene *scene, const nook_mesh *mesh, const nook_matrix *space,
+                            nook_scene_volume *volume, nook_scene_part *parts)
 {
+    uint32_t count = 0;
     for (uint32_t i = 0; i < mesh->primitive_count; i++) {
         const nook_primitive *primitive = &scene->primitives[mesh->first_primitive + i];
-        if (voxelized(scene, primitive))
-            append_primitive(scene, primitive, space, volume);
+        size_t first = volume->index_count;
+        if (!voxelized(scene, primitive))
+            continue;
+        append_primitive(scene, primitive, space, volume);
+        if (parts && volume->index_count > first)
+            parts[count++] = (nook_scene_part){ first, volume->index_count - first };
     }
+    return count;
 }
 
 void nook_scene_volume_release(nook_scene_volume *volume)
@@ -189,7 +197,7 @@ static void name_mesh(const nook_scene *scene, const nook_node *node, char out[N
 static void add_occluder(nook_scene_volumes *out, uint32_t volume, uint32_t node, const nook_matrix *world_from_mesh)
 {
     out->volumes[volume].instances++;
-    out->occluders[out->occluder_count++] = (nook_scene_occluder){ volume, node, *world_from_mesh };
+    out->occluders[out->occluder_count++] = (nook_scene_occluder){ volume, node, *world_from_mesh, false };
 }
 
 /* Whether any triangle can be seen: lines and points darken nothing that anyone sees. */
@@ -223,12 +231,20 @@ static bool keep_volume(nook_scene_volumes *out)
 static nook_result collect_static(const nook_scene *scene, nook_scene_volumes *out)
 {
     builder b = { .volume = &out->volumes[out->volume_count] };
-    for (uint32_t i = 0; i < scene->node_count; i++)
-        if (is_static(scene, &scene->nodes[i]))
-            count_mesh(scene, &scene->meshes[scene->nodes[i].mesh], &b);
+    size_t primitives = 0;
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        const nook_node *node = &scene->nodes[i];
+        if (!is_static(scene, node))
+            continue;
+        count_mesh(scene, &scene->meshes[node->mesh], &b);
+        primitives += scene->meshes[node->mesh].primitive_count;
+    }
     if (b.index_capacity == 0)
         return NOOK_OK;
     nook_result result = reserve(&b, "static");
+    out->parts = calloc(primitives, sizeof *out->parts);
+    if (result == NOOK_OK && !out->parts)
+        result = nook_fail(NOOK_E_MEMORY, "%s: no memory for %zu parts", scene->path, primitives);
     if (result != NOOK_OK) {
         free_volume(b.volume);
         return result;
@@ -242,7 +258,8 @@ static nook_result collect_static(const nook_scene *scene, nook_scene_volumes *o
         if (!is_static(scene, node))
             continue;
         nook_matrix mesh_from_local = nook_matrix_multiply(&mesh_from_world, &node->world_from_local);
-        append_mesh(scene, &scene->meshes[node->mesh], &mesh_from_local, b.volume);
+        out->part_count +=
+            append_mesh(scene, &scene->meshes[node->mesh], &mesh_from_local, b.volume, out->parts + out->part_count);
     }
     nook_matrix world_from_mesh = nook_matrix_translation(centre[0], centre[1], centre[2]);
     if (keep_volume(out))
@@ -265,7 +282,7 @@ static nook_result collect_body(const nook_scene *scene, uint32_t node_index, ui
         return result;
     }
     nook_matrix identity = nook_matrix_identity();
-    append_mesh(scene, mesh, &identity, b.volume);
+    append_mesh(scene, mesh, &identity, b.volume, NULL);
     if (keep_volume(out))
         volume_of_mesh[node->mesh] = out->volume_count - 1;
     return NOOK_OK;
@@ -342,7 +359,7 @@ static nook_result bake_all(const nook_volumes_desc *desc, nook_scene_volumes *v
     for (uint32_t i = 0; i < volumes->volume_count; i++) {
         nook_scene_volume *volume = &volumes->volumes[i];
         nook_result result = NOOK_OK;
-        for (int kind = 0; kind < NOOK_VOLUME_KINDS && result == NOOK_OK; kind++)
+        for (int kind = 0; kind < NOOK_VOLUME_KINDS && volume->resolution > 0 && result == NOOK_OK; kind++)
             if (volumes->kinds & NOOK_VOLUME_BIT(kind))
                 result = bake_kind(desc, volume, (nook_volume_kind)kind, &warned);
         if (result != NOOK_OK)
@@ -372,22 +389,37 @@ static nook_result collect(const nook_scene *scene, nook_scene_volumes *out)
     return result;
 }
 
-nook_result nook_volumes_bake(const nook_scene *scene, const nook_volumes_desc *desc, nook_scene_volumes *out)
+nook_result nook_volumes_collect(const nook_scene *scene, const nook_volumes_desc *desc, nook_scene_volumes *out)
 {
     uint32_t resolution = desc->resolution ? desc->resolution : NOOK_VOLUMES_RESOLUTION_DEFAULT;
     if (resolution > NOOK_VOXELIZE_RESOLUTION_MAX)
         return nook_fail(NOOK_E_RANGE, "bake: resolution %u; choose 1 to %u", resolution, NOOK_VOXELIZE_RESOLUTION_MAX);
     if (!isfinite(desc->r_max) || desc->r_max < 0.0)
         return nook_fail(NOOK_E_RANGE, "bake: r_max %g; choose a length in metres above 0", desc->r_max);
+    nook_scene_volumes volumes = { .r_max = desc->r_max > 0.0 ? desc->r_max : nook_volumes_default_r_max(scene),
+                                   .kinds = desc->kinds ? desc->kinds : NOOK_VOLUME_BIT(NOOK_VOLUME_BINARY),
+                                   .plan = desc->plan };
+    nook_result result = collect(scene, &volumes);
+    if (result != NOOK_OK) {
+        nook_volumes_free(&volumes);
+        return result;
+    }
+    choose_resolutions(&volumes, resolution);
+    *out = volumes;
+    return NOOK_OK;
+}
+
+nook_result nook_volumes_bake(const nook_scene *scene, const nook_volumes_desc *desc, nook_scene_volumes *out)
+{
+    nook_scene_volumes volumes;
     if (desc->must_keep && nook_directory_make(desc->cache_dir) != NOOK_OK)
         return NOOK_E_IO; /* before the work */
-    nook_scene_volumes volumes = { .r_max = desc->r_max > 0.0 ? desc->r_max : nook_volumes_default_r_max(scene),
-                                   .kinds = desc->kinds ? desc->kinds : NOOK_VOLUME_BIT(NOOK_VOLUME_BINARY) };
-    nook_result result = collect(scene, &volumes);
-    if (result == NOOK_OK) {
-        choose_resolutions(&volumes, resolution);
+    nook_result result = nook_volumes_collect(scene, desc, &volumes);
+    if (result != NOOK_OK)
+        return result;
+    result = nook_plan_apply_to(scene, &volumes);
+    if (result == NOOK_OK)
         result = bake_all(desc, &volumes);
-    }
     if (result != NOOK_OK) {
         nook_volumes_free(&volumes);
         return result;
@@ -404,5 +436,6 @@ void nook_volumes_free(nook_scene_volumes *volumes)
         free_volume(&volumes->volumes[i]);
     free(volumes->volumes);
     free(volumes->occluders);
+    free(volumes->parts);
     *volumes = (nook_scene_volumes){ 0 };
 }

@@ -15,6 +15,7 @@
 #pragma once
 #include "engine/asset/scene.h"
 #include "modules/bake/cache.h"
+#include "modules/plan/plan_params.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -34,7 +35,8 @@ typedef struct nook_scene_volume {
     size_t index_count;                 /**< A multiple of 3, at least 3. */
     double longest;                     /**< Longest side of its box, metres, mesh space. */
     uint32_t instances;                 /**< Occluders that it stands for. */
-    uint32_t resolution;                /**< What it was baked at: voxels on the longest side. */
+    uint32_t resolution;                /**< What it was baked at: voxels on the longest side; 0: not at all, a plan
+                                             leaves out its bodies. */
     nook_bake bakes[NOOK_VOLUME_KINDS]; /**< Of each kind asked for: the .nkv file image, what it holds, bake time,
                                              cache hit; else zero. */
 } nook_scene_volume;
@@ -44,7 +46,20 @@ typedef struct nook_scene_occluder {
     uint32_t volume;             /**< Into volumes. */
     uint32_t node;               /**< Into scene->nodes; NOOK_NONE for the static body. */
     nook_matrix world_from_mesh; /**< Invertible. For the static body a translation. */
+    bool left_out;               /**< By a plan: nobody marches it; the reference traces it. */
 } nook_scene_occluder;
+
+/** A primitive of what stands still. */
+typedef struct nook_scene_part {
+    size_t first_index, index_count; /**< Into the static volume's indices. */
+} nook_scene_part;
+
+/** What may be left out and made coarser (docs/plan.md). */
+typedef struct nook_volumes_plan {
+    nook_plan_params params; /**< Zero: nothing. */
+    bool moves;              /**< Bodies will not stay where they stand. */
+    bool multiplies;         /**< volume.combine = multiply. */
+} nook_volumes_plan;
 
 /** Owns all it points to. */
 typedef struct nook_scene_volumes {
@@ -52,17 +67,22 @@ typedef struct nook_scene_volumes {
     uint32_t volume_count;
     nook_scene_occluder *occluders;
     uint32_t occluder_count;
-    double r_max;   /**< Metres; the one that the resolutions follow from. */
-    uint32_t kinds; /**< Those that were asked for: bits NOOK_VOLUME_BIT. */
+    nook_scene_part
+        *parts; /**< Of the static volume, in its order; those that draw something. Empty once a plan has split it. */
+    uint32_t part_count;
+    double r_max;           /**< Metres; the one that the resolutions follow from. */
+    uint32_t kinds;         /**< Those that were asked for: bits NOOK_VOLUME_BIT. */
+    nook_volumes_plan plan; /**< As it was asked for: more kinds need the same. */
 } nook_scene_volumes;
 
 typedef struct nook_volumes_desc {
-    uint32_t resolution;   /**< [1, 512]; 0: NOOK_VOLUMES_RESOLUTION_DEFAULT. */
-    double r_max;          /**< Metres; 0: NOOK_VOLUMES_R_MAX_DEFAULT of the diagonal. */
-    const char *cache_dir; /**< NULL: no cache. */
-    bool must_keep;        /**< Volumes that cannot be kept in the cache are a failure; else one warning. */
-    uint32_t kinds;        /**< Of volumes: bits NOOK_VOLUME_BIT; 0: binary ones. */
-    uint32_t threads;      /**< 0: all cores. */
+    uint32_t resolution;    /**< [1, 512]; 0: NOOK_VOLUMES_RESOLUTION_DEFAULT. */
+    double r_max;           /**< Metres; 0: NOOK_VOLUMES_R_MAX_DEFAULT of the diagonal. */
+    const char *cache_dir;  /**< NULL: no cache. */
+    bool must_keep;         /**< Volumes that cannot be kept in the cache are a failure; else one warning. */
+    uint32_t kinds;         /**< Of volumes: bits NOOK_VOLUME_BIT; 0: binary ones. */
+    uint32_t threads;       /**< 0: all cores. */
+    nook_volumes_plan plan; /**< Zero: nothing is planned. */
     /** Called after each volume; NULL for none. `index` runs from 0 to count - 1. */
     void (*progress)(void *user, const nook_scene_volume *done, uint32_t index, uint32_t count);
     void *user;
@@ -73,6 +93,12 @@ double nook_volumes_default_r_max(const nook_scene *scene);
 
 /** Voxels along the longest side of a body that is `longest` metres in the world. See the top of this file. */
 uint32_t nook_volumes_body_resolution(double longest, double r_max, uint32_t resolution);
+
+/**
+ * What would be baked: bodies with their triangles and resolutions, without volumes.
+ * @return as nook_volumes_bake
+ */
+nook_result nook_volumes_collect(const nook_scene *scene, const nook_volumes_desc *desc, nook_scene_volumes *out);
 
 /**
  * Bakes a scene, or reads it from the cache. Nodes with nothing opaque, with corners that are not finite only, without any area, or

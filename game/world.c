@@ -25,7 +25,8 @@ struct nook_game_world {
     nook_ao_occluder *occluders;
     nook_world_volume *volumes;
     uint32_t volume_count;
-    uint32_t kinds; /* that the volumes are there in */
+    uint32_t kinds;         /* that the volumes are there in */
+    nook_volumes_plan plan; /* that they were baked by */
 };
 
 static void show_bake(void *user, const nook_scene_volume *done, uint32_t index, uint32_t count)
@@ -34,14 +35,22 @@ static void show_bake(void *user, const nook_scene_volume *done, uint32_t index,
     nook_progress_update(user, (index + 1.0) / count);
 }
 
+/* Parts of a room that share no volume would darken less then than they do. */
+bool nook_game_world_multiplies(const nook_ao *ao)
+{
+    double combine;
+    return nook_ao_get_param(ao, "volume.combine", &combine) != NOOK_OK || combine == 0.0;
+}
+
 static nook_result bake(const nook_scene *scene, const nook_game_world_desc *desc, uint32_t kinds,
-                        nook_scene_volumes *out_volumes)
+                        const nook_volumes_plan *plan, nook_scene_volumes *out_volumes)
 {
     nook_progress progress = nook_progress_begin("baking volumes");
     const nook_volumes_desc volumes = { .resolution = desc->resolution,
                                         .r_max = desc->r_max,
                                         .cache_dir = desc->cache,
                                         .kinds = kinds,
+                                        .plan = *plan,
                                         .progress = show_bake,
                                         .user = &progress };
     nook_result result = nook_volumes_bake(scene, &volumes, out_volumes);
@@ -160,9 +169,11 @@ static nook_result make_occluders(nook_game_world *world, const nook_scene_volum
             result = make_body(world, &occluder->world_from_mesh, false, &entity);
         else
             entity = world->of_node[occluder->node];
+        nook_volume_occluder component = world->volumes[occluder->volume].occluder;
+        if (occluder->left_out)
+            component.volume = (nook_ao_volume){ 0 };
         if (result == NOOK_OK)
-            result = nook_entity_add(world->entities, entity, world->components.volume_occluder,
-                                     &world->volumes[occluder->volume].occluder);
+            result = nook_entity_add(world->entities, entity, world->components.volume_occluder, &component);
         if (result != NOOK_OK)
             return result;
     }
@@ -199,6 +210,7 @@ static nook_result fill(nook_game_world *world, nook_scene_volumes *baked)
         return nook_fail(NOOK_E_MEMORY, "%s: no memory for its volumes", world->scene->path);
     world->volume_count = baked->volume_count;
     world->kinds = baked->kinds;
+    world->plan = baked->plan;
     nook_result result = NOOK_OK;
     for (uint32_t i = 0; i < baked->volume_count && result == NOOK_OK; i++) {
         nook_world_volume *volume = &world->volumes[i];
@@ -270,10 +282,12 @@ nook_result nook_game_world_create(const nook_scene *scene, nook_game_world **ou
     return NOOK_OK;
 }
 
-nook_result nook_game_world_bake(nook_game_world *world, nook_ao *ao, const nook_game_world_desc *desc)
+nook_result nook_game_world_bake(nook_game_world *world, nook_ao *ao, const nook_game_world_desc *desc,
+                                 const nook_volumes_plan *plan)
 {
     nook_scene_volumes baked = { 0 };
-    nook_result result = bake(world->scene, desc, nook_ao_volume_kinds(ao), &baked);
+    const nook_volumes_plan nothing = { .moves = false };
+    nook_result result = bake(world->scene, desc, nook_ao_volume_kinds(ao), plan ? plan : &nothing, &baked);
     return result == NOOK_OK ? nook_game_world_take_volumes(world, ao, &baked) : result;
 }
 
@@ -292,7 +306,7 @@ nook_result nook_game_world_supply(nook_game_world *world, uint32_t kinds, const
     uint32_t missing = kinds & ~world->kinds;
     if (!missing)
         return NOOK_OK;
-    nook_result result = bake(world->scene, desc, missing, &baked);
+    nook_result result = bake(world->scene, desc, missing, &world->plan, &baked);
     assert(result != NOOK_OK || baked.volume_count == world->volume_count); /* of the same scene */
     for (uint32_t i = 0; i < baked.volume_count && result == NOOK_OK; i++)
         result = extend(world->ao, &baked.volumes[i], &world->volumes[i]);

@@ -13,6 +13,7 @@
 
 typedef struct nook_game_world nook_game_world;
 struct nook_scene_volumes; /* game/volumes.h */
+struct nook_volumes_plan;  /* the same */
 
 typedef struct nook_game_world_desc {
     uint32_t resolution; /**< Of volumes, see game/volumes.h; 0: the default. */
@@ -51,10 +52,14 @@ nook_result nook_game_world_create(const nook_scene *scene, nook_game_world **ou
 /**
  * Bakes or reads the volumes, in the kinds that the AO's techniques march as they are set (with progress on standard error), uploads
  * them with their triangles, and gives the entities their occluders. Once in the life of a world.
- * @param ao  outlives the world
+ * @param ao    outlives the world
+ * @param plan  what may be left out and made coarser; NULL: nothing
  * @return why not; destroy the world then
  */
-nook_result nook_game_world_bake(nook_game_world *world, nook_ao *ao, const nook_game_world_desc *desc);
+nook_result nook_game_world_bake(nook_game_world *world, nook_ao *ao, const nook_game_world_desc *desc,
+                                 const struct nook_volumes_plan *plan);
+/** Whether the AO multiplies the visibilities of several volumes (volume.combine), as a plan must know. */
+bool nook_game_world_multiplies(const nook_ao *ao);
 /**
  * The same with volumes that were baked elsewhere, of the same scene; empties them. Takes as long as the uploads.
  * @return as nook_game_world_bake

@@ -13,6 +13,17 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* One assignment of --param; those of the plan belong to the stage. */
+static nook_result set_param(nook_stage *stage, const char *text)
+{
+    char name[256];
+    const char *equals = strchr(text, '='); /* checked with the options */
+    snprintf(name, sizeof name, "%.*s", (int)(equals - text), text);
+    if (strncmp(name, "plan.", 5) == 0)
+        return nook_plan_params_assign("--param", &stage->plan, name, equals + 1);
+    return nook_ao_parse_param(stage->ao, name, equals + 1);
+}
+
 /* Sets "ao.x" and "technique.x" from the settings file, then from the command line; what is set in two ways was refused with the options. */
 static nook_result set_params(nook_stage *stage, const nook_compare_options *options)
 {
@@ -30,12 +41,11 @@ static nook_result set_params(nook_stage *stage, const nook_compare_options *opt
         result = nook_ao_parse_param(ao, "ao.scale", options->ao_scale);
     if (result == NOOK_OK && options->reference_rays > 0)
         result = nook_ao_set_param(ao, "reference.rays", options->reference_rays);
-    for (size_t i = 0; i < options->params.count && result == NOOK_OK; i++) {
-        char name[256];
-        const char *text = options->params.items[i], *equals = strchr(text, '='); /* checked with the options */
-        snprintf(name, sizeof name, "%.*s", (int)(equals - text), text);
-        result = nook_ao_parse_param(ao, name, equals + 1);
-    }
+    stage->plan = options->settings ? options->file.plan : nook_plan_params_initial();
+    for (size_t i = 0; i < options->params.count && result == NOOK_OK; i++)
+        result = set_param(stage, options->params.items[i]);
+    if (options->plan >= 0)
+        stage->plan.mode = options->plan;
     return result;
 }
 

@@ -4,6 +4,7 @@
 #include "game/suggestion.h"
 #include "game/techniques.h"
 #include "modules/ao/nook_ao.h"
+#include "modules/plan/plan_params.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -63,6 +64,9 @@ static nook_result find_owner(const char *name, param_owner *out)
         owner.count = technique->param_count;
     } else if (strcmp(name, owner.name) == 0) {
         owner.params = nook_ao_shared_params(&owner.count);
+    } else if (strcmp(name, "plan") == 0) {
+        snprintf(owner.name, sizeof owner.name, "plan");
+        owner.params = nook_plan_param_table(&owner.count);
     } else {
         return nook_technique_refuse("parameters as technique.name=value, ao for what all share", name);
     }
@@ -126,7 +130,8 @@ static nook_result refuse_second_way(const nook_compare_options *options, const 
     } ways[] = { { "r-max", "ao.r_max=", options->r_max > 0.0 },
                  { "falloff", "ao.falloff=", options->falloff != NULL },
                  { "ao-scale", "ao.scale=", options->ao_scale != NULL },
-                 { "reference-rays", "reference.rays=", options->reference_rays > 0 } };
+                 { "reference-rays", "reference.rays=", options->reference_rays > 0 },
+                 { "plan", "plan.mode=", options->plan >= 0 } };
     for (size_t i = 0; i < NOOK_COUNT(ways); i++) {
         if (ways[i].given && strncmp(assignment, ways[i].param, strlen(ways[i].param)) == 0)
             return nook_fail(NOOK_E_ARG, "--param %s: --%s sets the same parameter; give one of the two", assignment,

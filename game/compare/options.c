@@ -42,7 +42,7 @@ static bool read_views(void *target, const char *text)
 bool nook_compare_options_read(const nook_app *app, int argc, char **argv, nook_compare_options *out,
                                int *out_exit_code)
 {
-    *out = (nook_compare_options){ .size = { 960, 540 }, .out = "out", .backend = NOOK_BACKEND_AUTO };
+    *out = (nook_compare_options){ .size = { 960, 540 }, .out = "out", .backend = NOOK_BACKEND_AUTO, .plan = -1 };
     out->scene = nook_option_default_scene(app, out->default_scene);
     out->cache = nook_option_default_cache(app, out->default_cache);
     char view_help[512], view_names[512], view_expects[600];
@@ -85,6 +85,12 @@ bool nook_compare_options_read(const nook_app *app, int argc, char **argv, nook_
           .read = read_scale,
           .expects = "full, half or quarter (1, 1/2, 1/4)",
           .help = "resolution of the trace: full, half or quarter" },
+        { .name = "plan",
+          .kind = NOOK_OPTION_CHOICE,
+          .target = &out->plan,
+          .placeholder = "MODE",
+          .choices = "off|on|measured",
+          .help = "march only the volumes that the scene requires (docs/plan.md): off, on or measured" },
         { .name = "param",
           .kind = NOOK_OPTION_LIST,
           .target = &out->params,

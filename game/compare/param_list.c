@@ -1,6 +1,7 @@
 #include "game/compare/param_list.h"
 #include "game/techniques.h"
 #include "modules/ao/nook_ao.h"
+#include "modules/plan/plan_params.h"
 #include <string.h>
 
 /* "hard, linear" of "hard|linear". */
@@ -46,5 +47,7 @@ void nook_compare_list_params(FILE *stream)
     print_table("ao", shared, shared_count, stream);
     for (size_t i = 0; i < count; i++)
         print_table(techniques[i]->name, techniques[i]->params, techniques[i]->param_count, stream);
+    const nook_param *plan = nook_plan_param_table(&count);
+    print_table("plan", plan, count, stream);
     fprintf(stream, "\nOf ao.r_max, compare's own default is a tenth of the scene's diagonal.\n");
 }

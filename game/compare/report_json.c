@@ -141,6 +141,25 @@ static void write_shared(nook_json *json, const nook_ao *ao)
     write_params(json, "shared_params", ao, "ao", params, count);
 }
 
+/* What was asked of the planner, where anything was. */
+static void write_plan(nook_json *json, const nook_plan_params *plan)
+{
+    size_t count;
+    char mode[32];
+    const nook_param *rows = nook_plan_param_table(&count);
+    if (plan->mode == NOOK_PLAN_OFF)
+        return;
+    nook_json_key(json, "plan");
+    nook_json_begin_object(json);
+    for (size_t i = 0; i < count; i++) {
+        if (rows[i].type == NOOK_PARAM_CHOICE)
+            nook_json_member_string(json, rows[i].name, nook_param_print(&rows[i], plan, mode, sizeof mode));
+        else
+            nook_json_member_number(json, rows[i].name, nook_param_get(&rows[i], plan));
+    }
+    nook_json_end_object(json);
+}
+
 static void write_all(nook_json *json, const nook_report *report)
 {
     const nook_comparison *comparison = report->comparison;
@@ -160,6 +179,7 @@ static void write_all(nook_json *json, const nook_report *report)
     nook_json_member_string(json, "renderer", report->stage->gpu->renderer);
     nook_json_member_integer(json, "triangles", (int64_t)report->stage->scene->triangle_count);
     nook_json_member_integer(json, "pixels_with_geometry", (int64_t)comparison->rows[0].errors.count);
+    write_plan(json, &report->stage->plan);
     write_volumes(json, report->stage->world);
     nook_json_key(json, "reference");
     write_row(json, report, &comparison->rows[0]);

@@ -48,7 +48,8 @@ static void print_volumes(const nook_report *report, FILE *stream)
     fprintf(stream, "%u volumes, %.1f MB", count, (double)bytes * 1e-6);
     if (cached < count)
         fprintf(stream, ", %u baked in %.0f ms", count - cached, ms);
-    fprintf(stream, "%s\n", cached == count ? ", all from the cache" : "");
+    fprintf(stream, "%s%s\n", cached == count ? ", all from the cache" : "",
+            report->stage->plan.mode == NOOK_PLAN_OFF ? "" : ", planned (./nook plan says why)");
 }
 
 static void print_second(const nook_second_view *second, FILE *stream)

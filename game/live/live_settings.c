@@ -146,7 +146,9 @@ static void print_falloff(const nook_live *live, char *out, size_t capacity)
 
 nook_settings_file live_settings_of_active(nook_live *live)
 {
-    nook_settings_file file = { .setting = live_setting_of(live, live->views.active), .r_max = live->views.r_max };
+    nook_settings_file file = { .setting = live_setting_of(live, live->views.active),
+                                .r_max = live->views.r_max,
+                                .plan = live->stage->plan };
     print_falloff(live, file.falloff, sizeof file.falloff);
     return file;
 }

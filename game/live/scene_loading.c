@@ -62,6 +62,7 @@ static void *run(void *user)
                                         .kinds = load->desc.kinds,
                                         .r_max = load->desc.r_max,
                                         .cache_dir = load->desc.cache,
+                                        .plan = load->desc.plan,
                                         .threads = cores > 1 ? cores - 1 : 1 }; /* one is left for the picture */
     nook_log_keep_errors(load->why, sizeof load->why);
     load->result = read_scene(load);

@@ -17,6 +17,7 @@ typedef struct nook_scene_loading_desc {
     double r_max;             /**< The same. */
     uint32_t kinds;           /**< Of volumes: bits NOOK_VOLUME_BIT; 0: binary ones. */
     const char *cache;        /**< The same; volumes of meshes that are as they were come from it. */
+    nook_volumes_plan plan;   /**< Zero: nothing is planned. */
     uint32_t unreadable_most; /**< Images that may be unreadable: those that are so in the scene that is shown. */
 } nook_scene_loading_desc;
 

@@ -65,6 +65,8 @@ static nook_result read_entry(reading *r, const char *name, const char *value)
         return read_technique(r, name, value);
     if (strcmp(name, "r_max") == 0)
         return read_shared(r, name, value, &r->out.r_max);
+    if (strcmp(name, "plan") == 0 || strncmp(name, "plan.", 5) == 0)
+        return nook_plan_params_assign(r->lines.where, &r->out.plan, name, value);
     if (strcmp(name, "falloff") != 0)
         return nook_setting_assign(r->lines.where, &r->out.setting, name, value);
     nook_result result = read_shared(r, name, value, &choice);
@@ -104,6 +106,7 @@ nook_result nook_settings_file_read(const char *path, nook_settings_file *out)
                                        .size = file.size,
                                        .longest = LINE_MAX_BYTES - 1,
                                        .refusal = "no settings file: a line of it is not name = value" };
+        r->out.plan = nook_plan_params_initial();
         result = read_lines(r);
     } else {
         result = nook_fail(NOOK_E_MEMORY, "%s: no memory to read it", path);
@@ -138,6 +141,21 @@ static void write_number(const char *name, double value, FILE *stream)
     fprintf(stream, "%s = %s\n", name, text);
 }
 
+/* What is not as it comes; "plan" is the mode. */
+static void write_plan(const nook_plan_params *plan, FILE *stream)
+{
+    size_t count;
+    char value[NOOK_SETTING_VALUE_MAX];
+    const nook_param *rows = nook_plan_param_table(&count);
+    for (size_t i = 0; i < count && plan->mode != NOOK_PLAN_OFF; i++) {
+        nook_param_print(&rows[i], plan, value, sizeof value);
+        if (strcmp(rows[i].name, "mode") == 0)
+            fprintf(stream, "plan = %s\n", value);
+        else if (nook_param_get(&rows[i], plan) != (double)(float)rows[i].initial)
+            fprintf(stream, "plan.%s = %s\n", rows[i].name, value);
+    }
+}
+
 static void write_setting(const nook_settings_file *file, FILE *stream)
 {
     const nook_setting *setting = &file->setting;
@@ -154,6 +172,7 @@ static void write_setting(const nook_settings_file *file, FILE *stream)
         write_number("r_max", file->r_max, stream);
     if (*file->falloff)
         fprintf(stream, "falloff = %s\n", file->falloff);
+    write_plan(&file->plan, stream);
 }
 
 nook_result nook_settings_file_write(const char *path, const nook_settings_file *file, const char *comment)

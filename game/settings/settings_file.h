@@ -8,15 +8,18 @@
  *   ao.scale = half
  *
  * One "name = value" a line, technique first. r_max (metres) and falloff may stand there too: they are then what the commands
- * use unless their own option says otherwise.
+ * use unless their own option says otherwise. So may plan (off, on, measured) and plan.error, plan.memory, ... (docs/plan.md).
  */
 #pragma once
 #include "game/settings/setting.h"
+#include "modules/plan/plan_params.h"
 
 typedef struct nook_settings_file {
     nook_setting setting;
     double r_max;     /**< Metres; 0: not given. */
     char falloff[32]; /**< A choice of ao.falloff; "": not given. */
+    nook_plan_params
+        plan; /**< Initial values where nothing is given; all zero, which is off, in one that was not read. */
 } nook_settings_file;
 
 /** @return NOOK_E_NOT_FOUND, NOOK_E_IO, NOOK_E_FORMAT (file:line: what is wrong); *out untouched then */

@@ -117,7 +117,7 @@ test_parameters_are_applied_and_reported() {
 test_every_parameter_of_the_tables_is_listed_and_can_be_set_to_its_initial_value() {
     compare --list-params >"$tmp/listed"
     local file owner row name initial count=0
-    for file in modules/ao/params.def modules/ao_*/params.def; do
+    for file in modules/ao/params.def modules/ao_*/params.def modules/plan/params.def; do
         owner=$(basename "$(dirname "$file")")
         while IFS= read -r row; do
             name=${owner#ao_}.$row

@@ -83,6 +83,26 @@ static void test_what_is_written_reads_back_the_same(void **state)
     assert_string_equal(again.falloff, file.falloff);
 }
 
+static void test_a_plan_is_read_and_written(void **state)
+{
+    (void)state;
+    static const char text[] = "technique = volume\nplan = measured\nplan.error = 0.02\nplan.memory = 1.5\n";
+    char path[PATH_BYTES];
+    nook_settings_file file, again;
+    nook_file bytes;
+    assert_int_equal(nook_settings_file_read(write_text(path, text, strlen(text)), &file), NOOK_OK);
+    assert_int_equal(file.plan.mode, NOOK_PLAN_MEASURED);
+    assert_true(file.plan.error == 0.02f && file.plan.memory == 1.5f);
+    assert_true(file.plan.level_error == nook_plan_params_initial().level_error);
+    assert_int_equal(nook_settings_file_write(path, &file, NULL), NOOK_OK);
+    assert_int_equal(nook_file_read(path, &bytes), NOOK_OK);
+    assert_int_equal(bytes.size, strlen(text));
+    assert_memory_equal(bytes.bytes, text, bytes.size);
+    nook_file_free(&bytes);
+    assert_int_equal(nook_settings_file_read(path, &again), NOOK_OK);
+    assert_memory_equal(&again.plan, &file.plan, sizeof file.plan);
+}
+
 static void test_every_technique_as_it_comes_is_one_line(void **state)
 {
     (void)state;
@@ -120,6 +140,9 @@ static void test_wrong_files_are_refused_with_their_line(void **state)
     must_refuse("technique = volume\nr_max = far\n", "2", "not a number");
     must_refuse("technique = volume\nfalloff = soft\n", "2", "choose one of");
     must_refuse("technique = ssao\nresolution = 64\n", "2", "reads no volumes");
+    must_refuse("technique = volume\nplan = yes\n", "2", "choose one of");
+    must_refuse("technique = volume\nplan.error = 2\n", "2", "plan.error");
+    must_refuse("technique = volume\nplan.eror = 0.1\n", "2", "there are plan.mode, plan.error");
 }
 
 static void test_what_is_no_text_is_refused(void **state)
@@ -166,6 +189,7 @@ int main(void)
         cmocka_unit_test(test_a_file_is_read),
         cmocka_unit_test(test_r_max_and_falloff_need_not_be_given),
         cmocka_unit_test(test_what_is_written_reads_back_the_same),
+        cmocka_unit_test(test_a_plan_is_read_and_written),
         cmocka_unit_test(test_every_technique_as_it_comes_is_one_line),
         cmocka_unit_test(test_wrong_files_are_refused_with_their_line),
         cmocka_unit_test(test_what_is_no_text_is_refused),
