@@ -78,12 +78,15 @@ static void draw_help(const nook_live *live, nook_overlay *overlay)
         { "V", "the next buffer; Shift: back" },
         { "C", "the next camera of the file" },
         { "Esc", "quit" },
+        { "F1", "the keys of the views" },
     };
+    bool alone = nook_live_help_shown(live) == NOOK_LIVE_HELP_HOST;
+    const size_t count = NOOK_COUNT(lines) - (alone ? 0 : 1); /* beside or above them nobody asks */
     const nook_overlay_panel panel = {
         .title = "Looking##help", .x = 8.0, .y = -nook_live_help_bottom(live), .passive = true
     };
     if (nook_overlay_panel_begin(overlay, &panel)) {
-        for (size_t i = 0; i < NOOK_COUNT(lines); i++) {
+        for (size_t i = 0; i < count; i++) {
             nook_overlay_text_coloured(overlay, gold, lines[i][0]);
             nook_overlay_same_line_at(overlay, 9.5);
             nook_overlay_text(overlay, lines[i][1]);
