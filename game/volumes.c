@@ -16,22 +16,21 @@ enum { NAME_CAPACITY = 64 };
 /* A volume that is being made, and how much room its arrays have. */
 typedef struct builder {
     nook_scene_volume *volume;
-    size_t vertex_capacity, index_capacity;
+    size_t vertex_capacity, index_capacity, part_capacity;
 } builder;
 
-static bool voxelized(const nook_scene *scene, const nook_primitive *primitive)
+static bool is_blended(const nook_scene *scene, const nook_primitive *primitive)
 {
-    return scene->materials[primitive->material].alpha_mode != NOOK_ALPHA_BLEND;
+    return scene->materials[primitive->material].alpha_mode == NOOK_ALPHA_BLEND;
 }
 
 static void count_mesh(const nook_scene *scene, const nook_mesh *mesh, builder *b)
 {
     for (uint32_t i = 0; i < mesh->primitive_count; i++) {
         const nook_primitive *primitive = &scene->primitives[mesh->first_primitive + i];
-        if (!voxelized(scene, primitive))
-            continue;
         b->vertex_capacity += primitive->vertex_count;
         b->index_capacity += primitive->index_count;
+        b->part_capacity++;
     }
 }
 
@@ -42,8 +41,10 @@ static nook_result reserve(builder *b, const char *name)
     if (b->vertex_capacity <= UINT32_MAX) {
         volume->positions = malloc((b->vertex_capacity + 1) * 3 * sizeof(float));
         volume->indices = malloc((b->index_capacity + 1) * sizeof(uint32_t));
+        volume->uvs = malloc((b->vertex_capacity + 1) * 2 * sizeof(float));
+        volume->parts = malloc((b->part_capacity + 1) * sizeof *volume->parts);
     }
-    if (!volume->name || !volume->positions || !volume->indices)
+    if (!volume->name || !volume->positions || !volume->indices || !volume->uvs || !volume->parts)
         return nook_fail(NOOK_E_MEMORY, "%s: no memory for %zu vertices", name, b->vertex_capacity);
     memcpy(volume->name, name, strlen(name) + 1);
     return NOOK_OK;
@@ -54,10 +55,31 @@ static bool finite3(const float p[3])
     return isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]);
 }
 
+/* What is not opaque of the last `count` indices. */
+static void append_part(const nook_scene *scene, const nook_material *material, size_t count, nook_scene_volume *volume)
+{
+    uint32_t image = material->base_colour_image;
+    if (count == 0 || material->alpha_mode == NOOK_ALPHA_OPAQUE)
+        return;
+    nook_alpha_part part = { .first_index = volume->index_count + volume->blended_index_count - count,
+                             .index_count = count,
+                             .alpha = material->base_colour[3],
+                             .masked = material->alpha_mode == NOOK_ALPHA_MASK,
+                             .cutoff = material->alpha_cutoff };
+    if (image != NOOK_NONE && scene->images[image].pixels) {
+        part.texels = scene->images[image].pixels;
+        part.width = scene->images[image].width;
+        part.height = scene->images[image].height;
+    }
+    volume->parts[volume->part_count++] = part;
+}
+
 static void append_primitive(const nook_scene *scene, const nook_primitive *primitive, const nook_matrix *space,
                              nook_scene_volume *volume)
 {
-    uint32_t base = volume->vertex_count;
+    uint32_t base = volume->vertex_count + volume->blended_vertex_count;
+    bool blended = is_blended(scene, primitive);
+    size_t *count = blended ? &volume->blended_index_count : &volume->index_count, before = *count;
     float *positions = volume->positions + (size_t)base * 3;
     for (uint32_t i = 0; i < primitive->vertex_count; i++) {
         const float *p = scene->vertices[primitive->first_vertex + i].position;
@@ -65,27 +87,31 @@ static void append_primitive(const nook_scene *scene, const nook_primitive *prim
         nook_matrix_apply_point(space, moved, moved);
         for (int axis = 0; axis < 3; axis++)
             positions[i * 3u + (uint32_t)axis] = (float)moved[axis];
+        memcpy(volume->uvs + 2 * ((size_t)base + i), scene->vertices[primitive->first_vertex + i].uv,
+               2 * sizeof(float));
     }
-    volume->vertex_count += primitive->vertex_count;
+    *(blended ? &volume->blended_vertex_count : &volume->vertex_count) += primitive->vertex_count;
     const uint32_t *indices = scene->indices + primitive->first_index;
     for (uint32_t i = 0; i + 2 < primitive->index_count; i += 3) {
         bool finite = true;
         for (uint32_t k = 0; k < 3; k++)
             finite = finite && finite3(positions + (size_t)indices[i + k] * 3);
-        for (uint32_t k = 0; finite && k < 3; k++)
-            volume->indices[volume->index_count++] = base + indices[i + k];
+        for (uint32_t k = 0; finite && k < 3; k++, ++*count)
+            volume->indices[volume->index_count + volume->blended_index_count] = base + indices[i + k];
     }
+    append_part(scene, &scene->materials[primitive->material], *count - before, volume);
 }
 
-/* Appends what of it came to `parts`, as one each, unless that is NULL. @return how many */
-static uint32_t append_mesh(const nook_scene *scene, const nook_mesh *mesh, const nook_matrix *space,
+/* Its blended primitives, or all others: those come last. Appends what of it came to `parts`, as one each, unless that is NULL. @return
+   how many */
+static uint32_t append_mesh(const nook_scene *scene, const nook_mesh *mesh, const nook_matrix *space, bool blended,
                             nook_scene_volume *volume, nook_scene_part *parts)
 {
     uint32_t count = 0;
     for (uint32_t i = 0; i < mesh->primitive_count; i++) {
         const nook_primitive *primitive = &scene->primitives[mesh->first_primitive + i];
         size_t first = volume->index_count;
-        if (!voxelized(scene, primitive))
+        if (is_blended(scene, primitive) != blended)
             continue;
         append_primitive(scene, primitive, space, volume);
         if (parts && volume->index_count > first)
@@ -98,12 +124,21 @@ void nook_scene_volume_release(nook_scene_volume *volume)
 {
     free(volume->positions);
     free(volume->indices);
+    free(volume->uvs);
+    free(volume->parts);
     volume->positions = NULL;
     volume->indices = NULL;
+    volume->uvs = NULL;
+    volume->parts = NULL;
     for (int kind = 0; kind < NOOK_VOLUME_KINDS; kind++) {
         free(volume->bakes[kind].bytes);
         volume->bakes[kind].bytes = NULL;
     }
+}
+
+size_t nook_scene_volume_index_count(const nook_scene_volume *volume)
+{
+    return volume->index_count + volume->blended_index_count;
 }
 
 const nook_bake *nook_scene_volume_bake(const nook_scene_volume *volume)
@@ -147,8 +182,9 @@ static double longest_side(const nook_scene_volume *volume)
 {
     vec3 box[2];
     double longest = 0.0;
+    size_t count = volume->index_count > 0 ? volume->index_count : volume->blended_index_count;
     glm_aabb_invalidate(box);
-    for (size_t i = 0; i < volume->index_count; i++) {
+    for (size_t i = 0; i < count; i++) {
         float *position = volume->positions + (size_t)volume->indices[i] * 3;
         glm_vec3_minv(box[0], position, box[0]);
         glm_vec3_maxv(box[1], position, box[1]);
@@ -200,10 +236,10 @@ static void add_occluder(nook_scene_volumes *out, uint32_t volume, uint32_t node
     out->occluders[out->occluder_count++] = (nook_scene_occluder){ volume, node, *world_from_mesh, false };
 }
 
-/* Whether any triangle can be seen: lines and points darken nothing that anyone sees. */
-static bool has_area(const nook_scene_volume *volume)
+/* Whether any of these triangles can be seen: lines and points darken nothing that anyone sees. */
+static bool has_area(const nook_scene_volume *volume, size_t first, size_t count)
 {
-    for (size_t i = 0; i < volume->index_count; i += 3) {
+    for (size_t i = first; i < first + count; i += 3) {
         const float *corner = volume->positions + (size_t)volume->indices[i] * 3;
         double u[3], v[3], normal[3];
         nook_vector_between(corner, volume->positions + (size_t)volume->indices[i + 1] * 3, u);
@@ -219,9 +255,16 @@ static bool has_area(const nook_scene_volume *volume)
 static bool keep_volume(nook_scene_volumes *out)
 {
     nook_scene_volume *volume = &out->volumes[out->volume_count];
-    if (!has_area(volume)) {
+    bool solid = has_area(volume, 0, volume->index_count);
+    if (!solid && !has_area(volume, volume->index_count, volume->blended_index_count)) {
         free_volume(volume);
         return false;
+    }
+    if (!solid) { /* what there is of it stands among the blended ones */
+        volume->blended_vertex_count += volume->vertex_count;
+        volume->blended_index_count += volume->index_count;
+        volume->vertex_count = 0;
+        volume->index_count = 0;
     }
     volume->longest = longest_side(volume);
     out->volume_count++;
@@ -242,7 +285,7 @@ static nook_result collect_static(const nook_scene *scene, nook_scene_volumes *o
     if (b.index_capacity == 0)
         return NOOK_OK;
     nook_result result = reserve(&b, "static");
-    out->parts = calloc(primitives, sizeof *out->parts);
+    out->parts = calloc(primitives + 1, sizeof *out->parts);
     if (result == NOOK_OK && !out->parts)
         result = nook_fail(NOOK_E_MEMORY, "%s: no memory for %zu parts", scene->path, primitives);
     if (result != NOOK_OK) {
@@ -253,15 +296,17 @@ static nook_result collect_static(const nook_scene *scene, nook_scene_volumes *o
     for (int axis = 0; axis < 3; axis++)
         centre[axis] = scene->bounds_min[axis] * 0.5 + scene->bounds_max[axis] * 0.5;
     nook_matrix mesh_from_world = nook_matrix_translation(-centre[0], -centre[1], -centre[2]);
-    for (uint32_t i = 0; i < scene->node_count; i++) {
-        const nook_node *node = &scene->nodes[i];
+    for (uint32_t i = 0; i < 2 * scene->node_count; i++) {
+        const nook_node *node = &scene->nodes[i % scene->node_count];
         if (!is_static(scene, node))
             continue;
         nook_matrix mesh_from_local = nook_matrix_multiply(&mesh_from_world, &node->world_from_local);
-        out->part_count +=
-            append_mesh(scene, &scene->meshes[node->mesh], &mesh_from_local, b.volume, out->parts + out->part_count);
+        out->part_count += append_mesh(scene, &scene->meshes[node->mesh], &mesh_from_local, i >= scene->node_count,
+                                       b.volume, out->parts + out->part_count);
     }
     nook_matrix world_from_mesh = nook_matrix_translation(centre[0], centre[1], centre[2]);
+    if (b.volume->blended_index_count > 0)
+        out->part_count = 0; /* what is split is split by opaque parts, and would lose its glass */
     if (keep_volume(out))
         add_occluder(out, out->volume_count - 1, NOOK_NONE, &world_from_mesh);
     return NOOK_OK;
@@ -282,7 +327,8 @@ static nook_result collect_body(const nook_scene *scene, uint32_t node_index, ui
         return result;
     }
     nook_matrix identity = nook_matrix_identity();
-    append_mesh(scene, mesh, &identity, b.volume, NULL);
+    append_mesh(scene, mesh, &identity, false, b.volume, NULL);
+    append_mesh(scene, mesh, &identity, true, b.volume, NULL);
     if (keep_volume(out))
         volume_of_mesh[node->mesh] = out->volume_count - 1;
     return NOOK_OK;
@@ -345,9 +391,21 @@ static nook_result check_kept(const nook_volumes_desc *desc, const nook_bake *ba
 static nook_result bake_kind(const nook_volumes_desc *desc, nook_scene_volume *volume, nook_volume_kind kind,
                              bool *warned)
 {
-    const nook_triangles triangles = { volume->positions, 0, volume->vertex_count, volume->indices,
-                                       volume->index_count };
-    const nook_voxelize_desc how = { .resolution = volume->resolution, .threads = desc->threads, .kind = kind };
+    nook_triangles triangles = { .positions = volume->positions,
+                                 .vertex_count = volume->vertex_count,
+                                 .indices = volume->indices,
+                                 .index_count = volume->index_count };
+    if (kind == NOOK_VOLUME_DENSITY) {
+        triangles.vertex_count += volume->blended_vertex_count;
+        triangles.index_count += volume->blended_index_count;
+    }
+    if (triangles.index_count == 0)
+        return NOOK_OK;
+    const nook_alphas alphas = { volume->parts, volume->part_count, volume->uvs };
+    const nook_voxelize_desc how = { .resolution = volume->resolution,
+                                     .threads = desc->threads,
+                                     .kind = kind,
+                                     .alphas = kind == NOOK_VOLUME_DENSITY ? &alphas : NULL };
     nook_bake *bake = &volume->bakes[kind];
     nook_result result = nook_bake_cached(desc->cache_dir, volume->name, &triangles, &how, bake);
     return result == NOOK_OK ? check_kept(desc, bake, warned) : result;

@@ -6,7 +6,8 @@
  *
  * Animation     What a clip moves is a body. A mesh that skins or morph targets deform while it plays is voxelised every
  *               frame (game/live_volumes.h); one that stands still in a pose has one like any other (engine/animation/scene_stand.h).
- * Materials     Blended ones are left out: a binary volume would make glass as dark as a wall. Masked ones are in, whole.
+ * Materials     Blended ones are left out: voxels would make glass as dark as a wall. Masked ones are in, whole. Volumes of the kind
+ *               "density" alone hold them as what they are: blended ones with their alpha, masked ones with their holes.
  * Resolution    follows from r_max: finer than r_max / NOOK_VOLUMES_VOXELS_PER_R_MAX cannot be told apart in the result. The static
  *               volume takes the `resolution` asked for on its longest side. A body takes as many voxels as make them that
  *               small in the world (at its largest instance), but at least NOOK_VOLUMES_BODY_RESOLUTION_MIN and at most
@@ -31,12 +32,19 @@ typedef struct nook_scene_volume {
     char *name;       /**< The mesh's name, or "static"; never NULL. */
     float *positions; /**< xyz, metres, mesh space; packed. Finite. */
     uint32_t vertex_count;
-    uint32_t *indices;                  /**< What was voxelised, and what the reference traces. */
-    size_t index_count;                 /**< A multiple of 3, at least 3. */
-    double longest;                     /**< Longest side of its box, metres, mesh space. */
-    uint32_t instances;                 /**< Occluders that it stands for. */
-    uint32_t resolution;                /**< What it was baked at: voxels on the longest side; 0: not at all, a plan
-                                             leaves out its bodies. */
+    uint32_t *indices; /**< What was voxelised, and what the reference traces: all but blended materials. */
+    size_t
+        index_count; /**< A multiple of 3; 0: a body of glass alone, which is there as density and as nothing else. */
+    /** Blended ones stand behind those, in both arrays. */
+    uint32_t blended_vertex_count;
+    size_t blended_index_count;
+    float *uvs; /**< Two for each vertex, blended ones too; NULL where a plan has split what stands still. */
+    nook_alpha_part *parts; /**< What of all this is not opaque; texels are the scene's. */
+    uint32_t part_count;
+    double longest;      /**< Longest side of the box of what is not blended, or else of all, metres, mesh space. */
+    uint32_t instances;  /**< Occluders that it stands for. */
+    uint32_t resolution; /**< What it was baked at: voxels on the longest side; 0: not at all, a plan leaves out its
+                              bodies. */
     nook_bake bakes[NOOK_VOLUME_KINDS]; /**< Of each kind asked for: the .nkv file image, what it holds, bake time,
                                              cache hit; else zero. */
 } nook_scene_volume;
@@ -67,8 +75,9 @@ typedef struct nook_scene_volumes {
     uint32_t volume_count;
     nook_scene_occluder *occluders;
     uint32_t occluder_count;
-    nook_scene_part
-        *parts; /**< Of the static volume, in its order; those that draw something. Empty once a plan has split it. */
+    nook_scene_part *
+        parts; /**< Of the static volume, in its order; those that draw something. Empty once a plan has split it, and where
+                     some of it is blended. */
     uint32_t part_count;
     double r_max;           /**< Metres; the one that the resolutions follow from. */
     uint32_t kinds;         /**< Those that were asked for: bits NOOK_VOLUME_BIT. */
@@ -101,11 +110,13 @@ uint32_t nook_volumes_body_resolution(double longest, double r_max, uint32_t res
 nook_result nook_volumes_collect(const nook_scene *scene, const nook_volumes_desc *desc, nook_scene_volumes *out);
 
 /**
- * Bakes a scene, or reads it from the cache. Nodes with nothing opaque, with corners that are not finite only, without any area, or
+ * Bakes a scene, or reads it from the cache. Nodes with corners that are not finite only, without any area, or
  * with a scale of zero have no volume; a scene may have none at all.
  * @return NOOK_E_RANGE resolution or r_max; NOOK_E_MEMORY; NOOK_E_IO must_keep, and they cannot be kept; *out is untouched on failure
  */
 nook_result nook_volumes_bake(const nook_scene *scene, const nook_volumes_desc *desc, nook_scene_volumes *out);
+/** Of all its triangles, blended ones too. */
+size_t nook_scene_volume_index_count(const nook_scene_volume *volume);
 /** The first kind that a volume was baked in. @return NULL for none */
 const nook_bake *nook_scene_volume_bake(const nook_scene_volume *volume);
 /** Frees one volume's data once it has been uploaded; its name, numbers and place stay. */

@@ -114,7 +114,7 @@ static nook_result upload(nook_ao *ao, const nook_scene_volume *baked, nook_worl
     nook_result result = nook_ao_reserve_volume(ao, &volume->occluder.volume);
     if (result == NOOK_OK)
         result = extend(ao, baked, volume);
-    if (result != NOOK_OK)
+    if (result != NOOK_OK || baked->index_count == 0)
         return result;
     return nook_ao_add_mesh(ao, baked->positions, baked->vertex_count, baked->indices, (uint32_t)baked->index_count,
                             &volume->occluder.mesh);

@@ -24,7 +24,8 @@ static void describe(bake_help *out)
         "The resolution of a body follows from r_max: its voxels are r_max / %d, but it has at least %u along its\n"
         "longest side and at most half of --resolution. All that stands still shares one volume of --resolution.\n"
         "Compare, play and the others bake the kinds that they march by themselves, when they do.\n"
-        "Instances share a bake. Blended (glass-like) materials are left out. Files are named by content: a second\n"
+        "Instances share a bake. Blended (glass-like) materials are left out, but for the kind density. Files are "
+        "named by content: a second\n"
         "bake finds them; when they cannot be written, bake fails. Format: docs/volume_format.md.\n",
         NOOK_VOLUMES_VOXELS_PER_R_MAX, NOOK_VOLUMES_BODY_RESOLUTION_MIN);
 }
@@ -45,22 +46,25 @@ static void tell_progress(void *user, const nook_scene_volume *done, uint32_t in
 static void print_row(const nook_scene_volume *v, const nook_bake *bake)
 {
     const nook_volume_info *info = &bake->info;
+    size_t triangles = v->index_count + (info->kind == NOOK_VOLUME_DENSITY ? v->blended_index_count : 0);
     char size[40], time[32];
     snprintf(size, sizeof size, "%ux%ux%u", info->width, info->height, info->depth);
     snprintf(time, sizeof time, "%.1f", bake->ms);
     printf("%-28.28s %-8s %9zu %6u %13s %10.3g %10llu %10zu %9s\n", v->name, nook_volume_kind_name(info->kind),
-           v->index_count / 3, v->instances, size, info->voxel_size, (unsigned long long)info->occupied, bake->size,
+           triangles / 3, v->instances, size, info->voxel_size, (unsigned long long)info->occupied, bake->size,
            bake->cache_hit ? "cached" : time);
 }
 
 static void print_table(const nook_scene_volumes *volumes)
 {
     size_t bytes = 0;
+    uint32_t baked = 0;
     double ms = 0.0;
     printf("%-28s %-8s %9s %6s %13s %10s %10s %10s %9s\n", "volume", "kind", "triangles", "uses", "voxels", "voxel m",
            "occupied", "bytes", "ms");
     for (uint32_t i = 0; i < volumes->volume_count; i++) {
         const nook_scene_volume *v = &volumes->volumes[i];
+        baked += nook_scene_volume_bake(v) != NULL;
         for (int kind = 0; kind < NOOK_VOLUME_KINDS; kind++) {
             if (v->bakes[kind].bytes)
                 print_row(v, &v->bakes[kind]);
@@ -68,16 +72,24 @@ static void print_table(const nook_scene_volumes *volumes)
             ms += v->bakes[kind].ms;
         }
     }
-    printf("%u volumes, %u occluders, %zu bytes, %.1f ms, r_max %.4g m\n", volumes->volume_count,
-           volumes->occluder_count, bytes, ms, volumes->r_max);
+    printf("%u volumes, %u occluders, %zu bytes, %.1f ms, r_max %.4g m\n", baked, volumes->occluder_count, bytes, ms,
+           volumes->r_max);
+}
+
+static bool anything_baked(const nook_scene_volumes *volumes)
+{
+    for (uint32_t i = 0; i < volumes->volume_count; i++)
+        if (nook_scene_volume_bake(&volumes->volumes[i]))
+            return true;
+    return false;
 }
 
 static int bake_file(const char *path, const nook_volumes_desc *desc)
 {
     nook_scene *scene;
     nook_scene_volumes volumes;
-    const nook_scene_options geometry = { .skip_images = true };
-    if (nook_scene_load(path, &geometry, &scene) != NOOK_OK)
+    const nook_scene_options options = { .skip_images = !(desc->kinds & NOOK_VOLUME_BIT(NOOK_VOLUME_DENSITY)) };
+    if (nook_scene_load(path, &options, &scene) != NOOK_OK)
         return NOOK_EXIT_FAILED;
     nook_result result = nook_moment_stand_still(scene, &(nook_moment){ .clip = NULL });
     if (result == NOOK_OK)
@@ -86,7 +98,7 @@ static int bake_file(const char *path, const nook_volumes_desc *desc)
     nook_scene_destroy(scene);
     if (result != NOOK_OK)
         return NOOK_EXIT_FAILED;
-    if (volumes.volume_count == 0 && drawn)
+    if (drawn && !anything_baked(&volumes))
         nook_log_warning("%s: all that it draws is blended or without area: there is nothing to bake", path);
     print_table(&volumes);
     nook_volumes_free(&volumes);
@@ -143,7 +155,7 @@ static bool read_request(const nook_app *app, int argc, char **argv, bake_reques
           .placeholder = "A,B",
           .help = "of volumes, as of volume.kind; default binary",
           .read = read_kinds,
-          .expects = "kinds of volumes: binary, surfel" },
+          .expects = "kinds of volumes: binary, density, surfel, distance" },
         nook_option_row_int("threads", &out->threads, 0, 1024, "default 0: one per processor"),
     };
     const nook_usage usage = { .command = "bake",

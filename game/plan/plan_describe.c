@@ -39,10 +39,11 @@ static nook_plan_box box_of(const nook_scene_volume *volume, const nook_matrix *
 
 /* ---- Volumes and bodies ----------------------------------------------------------------------------------------- */
 
-/* With the same triangles, bit for bit: files often hold a mesh once for each node. */
+/* With the same triangles, bit for bit, and opaque: files often hold a mesh once for each node. */
 static bool are_twins(const nook_scene_volume *a, const nook_scene_volume *b)
 {
-    return a->vertex_count == b->vertex_count && a->index_count == b->index_count &&
+    return a->part_count == 0 && b->part_count == 0 && a->index_count > 0 && a->vertex_count == b->vertex_count &&
+           a->index_count == b->index_count &&
            memcmp(a->indices, b->indices, a->index_count * sizeof *a->indices) == 0 &&
            memcmp(a->positions, b->positions, (size_t)a->vertex_count * 3 * sizeof *a->positions) == 0;
 }
@@ -53,7 +54,7 @@ static void describe_volumes(const nook_scene_volumes *volumes, nook_plan_descri
     for (uint32_t i = 0; i < volumes->volume_count; i++) {
         const nook_scene_volume *volume = &volumes->volumes[i];
         nook_plan_volume *described = &out->volumes[i];
-        nook_plan_box box = box_of(volume, &identity, 0, volume->index_count);
+        nook_plan_box box = box_of(volume, &identity, 0, nook_scene_volume_index_count(volume));
         *described = (nook_plan_volume){ .resolution = volume->resolution, .twin = i };
         for (int axis = 0; axis < 3; axis++)
             described->sides[axis] = box.max[axis] - box.min[axis];
@@ -76,11 +77,12 @@ static void describe_occluder(const nook_scene_volume *volume, const nook_scene_
                               nook_plan_occluder *out)
 {
     *out = (nook_plan_occluder){ .volume = occluder->volume,
-                                 .box = box_of(volume, &occluder->world_from_mesh, 0, volume->index_count),
+                                 .box = box_of(volume, &occluder->world_from_mesh, 0,
+                                               nook_scene_volume_index_count(volume)),
                                  .alone = convex };
     for (int axis = 0; axis < 3; axis++)
         out->centre[axis] = 0.5 * (out->box.min[axis] + out->box.max[axis]);
-    for (size_t i = 0; i < volume->index_count; i++) {
+    for (size_t i = 0; i < nook_scene_volume_index_count(volume); i++) {
         double point[3];
         corner_at(volume, i, &occluder->world_from_mesh, point);
         nook_vector_add_scaled(point, -1.0, out->centre, point);
@@ -93,7 +95,7 @@ static void describe_occluders(const nook_scene_volumes *volumes, nook_plan_desc
     for (uint32_t v = 0; v < volumes->volume_count; v++) {
         const nook_scene_volume *volume = &volumes->volumes[v];
         bool convex = v != out->scene.static_volume &&
-                      nook_plan_is_convex(volume->positions, volume->indices, volume->index_count);
+                      nook_plan_is_convex(volume->positions, volume->indices, nook_scene_volume_index_count(volume));
         for (uint32_t i = 0; i < volumes->occluder_count; i++)
             if (volumes->occluders[i].volume == v)
                 describe_occluder(volume, &volumes->occluders[i], convex, &out->occluders[i]);

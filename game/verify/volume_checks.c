@@ -1,4 +1,5 @@
-/* Row 19: what the volume technique says of its own floor, its guard, its steps and of several occluders (errata C5, C7, C8, C9). */
+/* Row 19: what the volume technique says of its own floor, its guard, its steps, of several occluders (errata C5, C7, C8, C9) and of
+   panes. */
 #include "game/verify/claims.h"
 #include "game/verify/verify_run.h"
 #include "modules/ao/technique.h"
@@ -239,6 +240,34 @@ static nook_result check_cube(const volume_run *run)
     return result;
 }
 
+/* ---- Panes: one takes its alpha once, two multiply --------------------------------------------------------------- */
+
+/** Two panes of alpha 0.4 overhead, at 0.2 and 0.4 r_max; the upper one may be left out. Voxels are 1. */
+static nook_result check_panes(const volume_run *run)
+{
+    const double alpha = 0.4, r_max = 40.0;
+    nook_result result = NOOK_OK;
+    for (int panes = 1; panes <= 2 && result == NOOK_OK; panes++) {
+        double lower = nook_form_ceiling(NOOK_FORM_COSINE, NOOK_FALLOFF_HARD, 0.0, 0.2);
+        double upper = nook_form_ceiling(NOOK_FORM_COSINE, NOOK_FALLOFF_HARD, 0.0, 0.4);
+        const volume_check check = { "panes of alpha 0.4",
+                                     panes == 1 ? "one overhead" : "two overhead",
+                                     "volume kind=density rays=1024 ao.filter=none",
+                                     alpha * lower + (panes == 2 ? (1.0 - alpha) * alpha * upper : 0.0),
+                                     0.02,
+                                     r_max,
+                                     NOOK_FALLOFF_HARD };
+        nook_fixture_mesh mesh = { .transparency = 1.0 - alpha };
+        for (int i = 1; i <= panes; i++)
+            nook_fixture_add_quad(&mesh, (double[]){ -128, -128, 0.2 * i * r_max }, (double[]){ 256, 0, 0 },
+                                  (double[]){ 0, 256, 0 });
+        result = add(run, &mesh, 256);
+        if (result == NOOK_OK)
+            result = settle(run, &check);
+    }
+    return result;
+}
+
 nook_result nook_verify_volume_checks(const nook_verify_desc *desc, nook_verify_rig *rig, nook_verify_rows *rows)
 {
     const volume_run run = { desc, rig->receiver, rows };
@@ -251,6 +280,12 @@ nook_result nook_verify_volume_checks(const nook_verify_desc *desc, nook_verify_
     nook_result result = check_floors(&run, "volume rays=64 ao.filter=none", 1.0 / 255);
     if (result == NOOK_OK)
         result = check_floors(&run, "volume kind=surfel rays=64 ao.filter=none", 0.0);
+    if (result == NOOK_OK)
+        result = check_floors(&run, "volume kind=density rays=64 ao.filter=none", 0.0);
+    if (result == NOOK_OK)
+        result = check_floors(&run, "volume kind=distance rays=64 ao.filter=none", 0.0);
+    if (result == NOOK_OK)
+        result = check_panes(&run);
     if (result == NOOK_OK)
         result = check_guards(&run);
     if (result == NOOK_OK)

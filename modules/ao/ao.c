@@ -68,7 +68,8 @@ nook_result nook_ao_create(const nook_ao_desc *desc, nook_ao **out_ao)
     ao->next_mesh_id = 1;
     nook_param_reset(ao_shared_table, NOOK_COUNT(ao_shared_table), &ao->shared);
     ao->next_volume_id = 1;
-    volume_atlas_init(&ao->atlas, ao->gpu);
+    for (int kind = 0; kind < NOOK_VOLUME_KINDS; kind++)
+        volume_atlas_init(&ao->atlases[kind], ao->gpu);
     brick_pool_init(&ao->pool, ao->gpu);
     create_sampler(ao);
     result =
@@ -88,7 +89,8 @@ void nook_ao_destroy(nook_ao *ao)
     for (uint32_t i = 0; i < ao->slot_count; i++)
         ao_slot_release(ao, &ao->slots[i]);
     ao_targets_release(ao->gpu, &ao->targets);
-    volume_atlas_release(&ao->atlas);
+    for (int kind = 0; kind < NOOK_VOLUME_KINDS; kind++)
+        volume_atlas_release(&ao->atlases[kind]);
     brick_pool_release(&ao->pool);
     ao_meshes_release(ao);
     ao_voxelizer_release(ao);

@@ -33,7 +33,7 @@ typedef struct ao_gpu_occluder {
     float voxel_from_view[3][4];  /**< Rows: voxel coordinates of the volume, (0, 0, 0) at its outer corner. */
     float normal_from_view[3][4]; /**< Rows of the inverse transpose of the 3x3 part; w unused. */
     float size[4];                /**< Voxels; w: the box's bounding radius in metres. */
-    /** Binary: voxel in the atlas that is the volume's (0, 0, 0). Surfel: number of its first brick, x + 65536 y; a float alone
+    /** Voxel in its kind's atlas that is the volume's (0, 0, 0). Surfel: number of its first brick, x + 65536 y; a float alone
         does not hold all of them. */
     float place[4];
     float centre[4]; /**< View space, metres; w unused. */
@@ -88,9 +88,9 @@ struct nook_ao {
     uint32_t slot_count, current;
     ao_targets targets;
     nook_buffer frame, occluder_buffer, counter;
-    uint32_t nearest_sampler;      /**< Of the host's textures. */
-    nook_texture occluder_texture; /**< The buffer's rows as texels. */
-    volume_atlas atlas;
+    uint32_t nearest_sampler;                /**< Of the host's textures. */
+    nook_texture occluder_texture;           /**< The buffer's rows as texels. */
+    volume_atlas atlases[NOOK_VOLUME_KINDS]; /**< Of each kind but surfels, which are in the pool. */
     ao_voxelizer voxelizer;
     brick_pool pool;
     uint32_t *volume_ids; /**< Those that are known, ascending. */
@@ -162,7 +162,7 @@ ao_region ao_region_make(const nook_ao *ao, const nook_rectangle *part, uint32_t
 void ao_depth_error(nook_gpu *gpu, nook_ao_texture depth, const double clip_from_view[16], double out_error[2]);
 
 /** Every kind that there is. */
-#define AO_EVERY_KIND (NOOK_VOLUME_BIT(NOOK_VOLUME_BINARY) | NOOK_VOLUME_BIT(NOOK_VOLUME_SURFEL))
+#define AO_EVERY_KIND (NOOK_VOLUME_BIT(NOOK_VOLUME_KINDS) - 1u)
 /** Ids of volumes: given once, and known until they are removed, in whatever kinds they are there. */
 nook_result ao_volume_id_take(nook_ao *ao, uint32_t *out_id); /**< @return NOOK_E_MEMORY */
 bool ao_volume_id_is_known(const nook_ao *ao, uint32_t id);

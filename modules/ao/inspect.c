@@ -8,15 +8,20 @@ enum { TILE_SIZE = 8, LOCATION_COUNT = 0 };
 
 nook_result nook_ao_inspect_volume(nook_ao *ao, nook_ao_volume volume, nook_ao_volume_place *out_place)
 {
+    volume_atlas *atlas = &ao->atlases[NOOK_VOLUME_BINARY];
     nook_result result = ao_ask_for_volumes(ao, NOOK_VOLUME_BIT(NOOK_VOLUME_BINARY));
     if (result == NOOK_OK)
-        result = volume_atlas_flush(&ao->atlas);
+        result = volume_atlas_flush(atlas);
     if (result != NOOK_OK)
         return result;
-    const atlas_entry *entry = volume_atlas_find(&ao->atlas, volume.id);
-    if (!entry)
-        return nook_fail(NOOK_E_NOT_FOUND, "volume %u has been removed, or has no voxels", volume.id);
-    nook_ao_volume_place place = { .atlas = ao->atlas.texture, .voxel_size = entry->info.voxel_size };
+    if (!ao_volume_id_is_known(ao, volume.id))
+        return nook_fail(NOOK_E_NOT_FOUND, "volume %u has been removed", volume.id);
+    const atlas_entry *entry = volume_atlas_find(atlas, volume.id);
+    if (!entry) {
+        *out_place = (nook_ao_volume_place){ .voxel_size = 0.0 };
+        return NOOK_OK;
+    }
+    nook_ao_volume_place place = { .atlas = atlas->texture, .voxel_size = entry->info.voxel_size };
     for (int axis = 0; axis < 3; axis++) {
         place.origin[axis] = entry->box.origin[axis];
         place.size[axis] = entry->box.size[axis];

@@ -12,12 +12,12 @@ extern "C" {
 typedef struct nook_ao_volume_place {
     nook_texture atlas; /**< R8 3D, linear filtering; 255 is full. Valid until volumes are added or removed. */
     uint32_t origin[3]; /**< Its first voxel there. */
-    uint32_t size[3];   /**< Voxels; the outermost are empty. */
+    uint32_t size[3];   /**< Voxels; the outermost are empty. 0: it has no binary voxels. */
     double voxel_size;  /**< Metres, mesh space. */
     double corner[3];   /**< Metres, mesh space: outer corner of its first voxel. */
 } nook_ao_volume_place;
 
-/** @return NOOK_E_NOT_FOUND a volume that has been removed or is not binary; NOOK_E_MEMORY, NOOK_E_DEVICE; *out_place is untouched then */
+/** @return NOOK_E_NOT_FOUND a volume that has been removed; NOOK_E_MEMORY, NOOK_E_DEVICE; *out_place is untouched then */
 nook_result nook_ao_inspect_volume(nook_ao *ao, nook_ao_volume volume, nook_ao_volume_place *out_place);
 
 /**

@@ -66,7 +66,7 @@ nook_result nook_ao_add_live_volume(nook_ao *ao, const char *name, const uint32_
     if (result != NOOK_OK)
         return result;
     volume.voxels = calloc((size_t)size[0] * size[1] * size[2], 1);
-    result = volume.voxels ? volume_atlas_add(&ao->atlas, made.id, &volume)
+    result = volume.voxels ? volume_atlas_add(&ao->atlases[NOOK_VOLUME_BINARY], made.id, &volume)
                            : nook_fail(NOOK_E_MEMORY, "%s: no memory for a live volume", name);
     nook_volume_free(&volume);
     if (result == NOOK_OK)
@@ -160,7 +160,7 @@ static void merge_slices(nook_ao *ao, const atlas_entry *entry, nook_program pro
                                 (int32_t)entry->box.origin[2] };
     for (uint32_t axis = 0; axis < 3; axis++)
         nook_bind_texture(ao->gpu, axis, ao->voxelizer.slices[axis]);
-    nook_bind_image(ao->gpu, 0, ao->atlas.texture, GL_WRITE_ONLY);
+    nook_bind_image(ao->gpu, 0, ao->atlases[NOOK_VOLUME_BINARY].texture, GL_WRITE_ONLY);
     nook_program_use(ao->gpu, program);
     nook_uniform_int(ao->gpu, LOCATION_ORIGIN, origin, 3);
     nook_uniform_int(ao->gpu, LOCATION_SIZE, size, 3);
@@ -171,7 +171,7 @@ static void merge_slices(nook_ao *ao, const atlas_entry *entry, nook_program pro
 nook_result nook_ao_voxelize(nook_ao *ao, nook_ao_volume volume, const nook_ao_live_mesh *mesh)
 {
     nook_program slice, merge;
-    const atlas_entry *entry = volume_atlas_find(&ao->atlas, volume.id);
+    const atlas_entry *entry = volume_atlas_find(&ao->atlases[NOOK_VOLUME_BINARY], volume.id);
     if (!entry)
         return nook_fail(NOOK_E_ARG, "volume %u is not there to be made anew", volume.id);
     if (!(mesh->voxel_size > 0.0) || !isfinite(mesh->voxel_size))
@@ -181,12 +181,12 @@ nook_result nook_ao_voxelize(nook_ao *ao, nook_ao_volume volume, const nook_ao_l
     if (result == NOOK_OK)
         result = nook_program_compute(ao->gpu, "shaders/ao/voxel_merge.comp.glsl", "", &merge);
     if (result == NOOK_OK)
-        result = volume_atlas_flush(&ao->atlas);
+        result = volume_atlas_flush(&ao->atlases[NOOK_VOLUME_BINARY]);
     if (result != NOOK_OK)
         return result;
     nook_volume_info info = entry->info;
     fit_grid(mesh, &entry->box, &info);
-    volume_atlas_set_info(&ao->atlas, volume.id, &info);
+    volume_atlas_set_info(&ao->atlases[NOOK_VOLUME_BINARY], volume.id, &info);
     kept_state kept = begin_raster(ao->gpu->gl);
     draw_slices(ao, &info, mesh, slice);
     end_raster(ao->gpu->gl, &kept);

@@ -73,9 +73,11 @@ static int compose(const nook_volume_info *info, const nook_matrix *view_from_me
 
 const nook_volume_info *ao_volume_info(const nook_ao *ao, uint32_t id, uint32_t kinds)
 {
-    const atlas_entry *voxels = kinds & NOOK_VOLUME_BIT(NOOK_VOLUME_BINARY) ? volume_atlas_find(&ao->atlas, id) : NULL;
-    if (voxels)
-        return &voxels->info;
+    for (int kind = 0; kind < NOOK_VOLUME_KINDS; kind++) {
+        const atlas_entry *voxels = kinds & NOOK_VOLUME_BIT(kind) ? volume_atlas_find(&ao->atlases[kind], id) : NULL;
+        if (voxels)
+            return &voxels->info;
+    }
     const pool_entry *bricks = kinds & NOOK_VOLUME_BIT(NOOK_VOLUME_SURFEL) ? brick_pool_find(&ao->pool, id) : NULL;
     return bricks ? &bricks->info : NULL;
 }
@@ -89,7 +91,7 @@ static void set_place(const nook_ao *ao, uint32_t id, const nook_volume_info *in
         out->place[1] = (float)(first >> 16);
         return;
     }
-    const atlas_box *box = &volume_atlas_find(&ao->atlas, id)->box;
+    const atlas_box *box = &volume_atlas_find(&ao->atlases[info->kind], id)->box;
     for (int axis = 0; axis < 3; axis++)
         out->place[axis] = (float)box->origin[axis];
 }

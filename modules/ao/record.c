@@ -126,7 +126,9 @@ static frame_block make_block(const nook_ao *ao, const nook_ao_frame *frame, int
 static nook_result upload_inputs(nook_ao *ao, const nook_ao_frame *frame, int counting)
 {
     static const ao_counts zero = { 0 };
-    nook_result result = volume_atlas_flush(&ao->atlas);
+    nook_result result = NOOK_OK;
+    for (int kind = 0; kind < NOOK_VOLUME_KINDS && result == NOOK_OK; kind++)
+        result = volume_atlas_flush(&ao->atlases[kind]);
     if (result == NOOK_OK)
         result = brick_pool_flush(&ao->pool);
     if (result != NOOK_OK)
@@ -140,11 +142,21 @@ static nook_result upload_inputs(nook_ao *ao, const nook_ao_frame *frame, int co
     return NOOK_OK;
 }
 
+/** Of the kind that this record marches; of surfels and of several kinds no voxel is read. */
+static const volume_atlas *marched_atlas(const nook_ao *ao)
+{
+    for (int kind = 0; kind < NOOK_VOLUME_KINDS; kind++)
+        if (ao->kinds == NOOK_VOLUME_BIT(kind))
+            return &ao->atlases[kind];
+    return &ao->atlases[NOOK_VOLUME_BINARY];
+}
+
 static nook_ao_pass make_pass(nook_ao *ao, const nook_ao_frame *frame, uint32_t instances, int direct)
 {
     const ao_targets *targets = &ao->targets;
     const ao_trace *trace = &targets->traces[ao->scale];
     const ao_region *region = &ao->recorded;
+    const volume_atlas *atlas = marched_atlas(ao);
     int full = ao->scale == 0;
     frame_block projection = { 0 };
     set_projection(frame->clip_from_view, &projection);
@@ -169,8 +181,8 @@ static nook_ao_pass make_pass(nook_ao *ao, const nook_ao_frame *frame, uint32_t 
         .seed = frame->index,
         .progress = ao->progress,
         .progress_user = ao->progress_user,
-        .volume_atlas = ao->atlas.texture,
-        .volume_atlas_version = ao->atlas.version,
+        .volume_atlas = atlas->texture,
+        .volume_atlas_version = atlas->version,
         .bricks = ao->pool.bricks.texture,
         .surfels = ao->pool.surfels.texture,
         .line_max = ao->line_max,
@@ -305,8 +317,9 @@ void nook_ao_get_statistics(nook_ao *ao, nook_ao_statistics *out_statistics)
 {
     ao_counts counted;
     *out_statistics = ao->statistics;
-    out_statistics->volume_bytes =
-        ao->kinds & NOOK_VOLUME_BIT(NOOK_VOLUME_SURFEL) ? brick_pool_bytes(&ao->pool) : volume_atlas_bytes(&ao->atlas);
+    out_statistics->volume_bytes = ao->kinds & NOOK_VOLUME_BIT(NOOK_VOLUME_SURFEL)
+                                       ? brick_pool_bytes(&ao->pool)
+                                       : volume_atlas_bytes(marched_atlas(ao));
     out_statistics->texture_bytes = ao_targets_bytes(&ao->targets, ao->scale);
     out_statistics->fetches_per_pixel = 0.0;
     out_statistics->outside = 0;

@@ -63,7 +63,7 @@ typedef struct nook_ao_pass {
     void *progress_user;
 
     /** NOOK_AO_IN_VOLUMES: bound by the host for modules/ao/volumes.h; see shaders/ao/occluders.glsl. */
-    nook_texture volume_atlas; /**< R8 3D. Binding 2. */
+    nook_texture volume_atlas; /**< R8 3D, of the kind that is marched, but for surfels. Binding 2. */
     uint32_t
         volume_atlas_version; /**< Another one when the atlas, or what it holds, is another: for what is made of it. */
     nook_texture bricks;      /**< Texture buffer RGBA32UI, of all surfel volumes: docs/surfel_bricks.md. Binding 5. */

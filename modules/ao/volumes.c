@@ -52,8 +52,9 @@ void ao_volume_id_give(nook_ao *ao, uint32_t id)
 /** Gives the volume to those who keep its kind; it becomes zero. */
 static nook_result keep_volume(nook_ao *ao, uint32_t id, nook_volume *volume)
 {
-    nook_result result = volume->info.kind == NOOK_VOLUME_SURFEL ? brick_pool_add(&ao->pool, id, volume)
-                                                                 : volume_atlas_add(&ao->atlas, id, volume);
+    nook_volume_kind kind = volume->info.kind;
+    nook_result result = kind == NOOK_VOLUME_SURFEL ? brick_pool_add(&ao->pool, id, volume)
+                                                    : volume_atlas_add(&ao->atlases[kind], id, volume);
     nook_volume_free(volume);
     return result;
 }
@@ -98,7 +99,8 @@ nook_result nook_ao_extend_volume(nook_ao *ao, nook_ao_volume volume, const char
 void nook_ao_remove_volume(nook_ao *ao, nook_ao_volume volume)
 {
     ao_volume_id_give(ao, volume.id);
-    volume_atlas_remove(&ao->atlas, volume.id);
+    for (int kind = 0; kind < NOOK_VOLUME_KINDS; kind++)
+        volume_atlas_remove(&ao->atlases[kind], volume.id);
     brick_pool_remove(&ao->pool, volume.id);
 }
 

@@ -9,7 +9,7 @@
 #include "engine/core/param_block.inl"
 #include <stdio.h>
 
-enum { COMBINE_MULTIPLY = 0, KIND_SURFEL = 1, SAMPLING_CORNERS = 1 };
+enum { COMBINE_MULTIPLY = 0, SAMPLING_CORNERS = 1 };
 enum {
     TILE_SIZE = 8,
     BINDING_DIRECTIONS = 4,
@@ -21,8 +21,9 @@ enum {
 enum { LOCATION_PART = 0, LOCATION_OCCLUDERS = 1 };
 
 /**
- * Loop turns of a ray in a surfel volume. At most: the inner loop's as many as a line crosses voxels, the outer one's no more, and what
- * sorting a list takes for it. Usually: counted in rooms and around single objects, where the longest took 77.
+ * Loop turns of a ray in a volume of surfels, densities or distances. At most: of surfels the inner loop's as many as a line crosses
+ * voxels, the outer one's no more; densities one a voxel, distances two (MIN_STEP of distance.comp.glsl); and what sorting a list takes
+ * for it. Usually: counted in rooms and around single objects, where the longest through surfels took 77.
  */
 enum { TURNS_PER_VOXEL = 2, TURNS_OF_SORTING = 5, TURNS_USUALLY = 128 };
 
@@ -135,7 +136,7 @@ static void leave_open(const nook_ao_pass *pass)
 static uint32_t volume_kind(const void *params)
 {
     const volume_params *p = params;
-    return p->kind == KIND_SURFEL ? NOOK_VOLUME_SURFEL : NOOK_VOLUME_BINARY;
+    return (uint32_t)p->kind; /* the choices of params.def stand in the order of nook_volume_kind */
 }
 
 static volume_task make_task(const volume_params *p, const nook_ao_pass *pass)
@@ -143,10 +144,10 @@ static volume_task make_task(const volume_params *p, const nook_ao_pass *pass)
     const volume_work work = { (uint32_t)p->rays, (uint32_t)p->steps, pass->occluder_count,
                                p->combine == COMBINE_MULTIPLY };
     volume_task task = { .usual = work, .most = work, .kept_format = GL_R32F };
-    if (p->kind == KIND_SURFEL) {
+    if (p->kind != NOOK_VOLUME_BINARY) {
         task.most.steps = TURNS_PER_VOXEL * pass->line_max + TURNS_OF_SORTING;
         task.usual.steps = at_most(TURNS_USUALLY, task.most.steps);
-        task.kept_format = GL_RGBA32F;
+        task.kept_format = p->kind == NOOK_VOLUME_DISTANCE ? GL_R32F : GL_RGBA32F;
     }
     return task;
 }
@@ -155,16 +156,21 @@ static volume_task make_task(const volume_params *p, const nook_ao_pass *pass)
 static nook_result choose_program(volume_state *s, const volume_params *p, const nook_ao_pass *pass,
                                   nook_program *out_program)
 {
+    static const char *const shaders[NOOK_VOLUME_KINDS] = {
+        [NOOK_VOLUME_BINARY] = "shaders/ao/volume.comp.glsl",
+        [NOOK_VOLUME_DENSITY] = "shaders/ao/density.comp.glsl",
+        [NOOK_VOLUME_SURFEL] = "shaders/ao/surfel.comp.glsl",
+        [NOOK_VOLUME_DISTANCE] = "shaders/ao/distance.comp.glsl",
+    };
     char defines[64];
-    int surfels = p->kind == KIND_SURFEL, corners = !surfels && p->sampling == SAMPLING_CORNERS;
+    int corners = p->kind == NOOK_VOLUME_BINARY && p->sampling == SAMPLING_CORNERS;
     nook_result result = corners ? volume_corners_fit(&s->corners, pass) : NOOK_OK;
     if (result != NOOK_OK)
         return result;
     if (corners)
         nook_bind_texture(pass->gpu, BINDING_CORNERS, s->corners.texture);
     snprintf(defines, sizeof defines, "%s%s", corners ? "#define CORNERS\n" : "", nook_ao_pass_defines(pass));
-    return nook_program_compute(pass->gpu, surfels ? "shaders/ao/surfel.comp.glsl" : "shaders/ao/volume.comp.glsl",
-                                defines, out_program);
+    return nook_program_compute(pass->gpu, shaders[p->kind], defines, out_program);
 }
 
 static nook_result record(void *state, const void *params, const nook_ao_pass *pass)

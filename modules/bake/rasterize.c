@@ -37,6 +37,7 @@ static int64_t centre(int32_t voxel)
 typedef struct projection {
     int64_t u[3], v[3], depth[3];
     int64_t area; /* twice, > 0 */
+    int order[3]; /* which of the triangle's corners they are */
 } projection;
 
 /* Twice the signed area of (from, to, point). Coordinates are below 2^26, so this is exact, in double too. */
@@ -53,6 +54,7 @@ static int project(const nook_snapped_triangle *triangle, int axis, projection *
         out->u[i] = triangle->corner[i][across];
         out->v[i] = triangle->corner[i][up];
         out->depth[i] = triangle->corner[i][axis];
+        out->order[i] = i;
     }
     out->area = edge(out, 0, 1, out->u[2], out->v[2]);
     if (out->area >= 0)
@@ -61,6 +63,7 @@ static int project(const nook_snapped_triangle *triangle, int axis, projection *
     out->u[1] = mirrored.u[2], out->v[1] = mirrored.v[2], out->depth[1] = mirrored.depth[2];
     out->u[2] = mirrored.u[1], out->v[2] = mirrored.v[1], out->depth[2] = mirrored.depth[1];
     out->area = -mirrored.area;
+    out->order[1] = 2, out->order[2] = 1;
     return 1;
 }
 
@@ -90,8 +93,9 @@ static void clip_span(int64_t weight, int64_t step, int64_t *first, int64_t *las
 
 typedef struct raster {
     const int32_t *inner;
-    nook_voxel_grid *grid;
     int axis;
+    nook_rasterize_mark mark;
+    void *user;
 } raster;
 
 static void rasterize_row(const projection *p, const raster *r, int32_t first_u, int32_t last_u, int32_t row)
@@ -107,16 +111,19 @@ static void rasterize_row(const projection *p, const raster *r, int32_t first_u,
     int32_t voxel[3];
     voxel[(r->axis + 2) % 3] = row;
     for (int64_t i = first; i <= last; i++) {
-        double depth = 0.0;
-        for (int k = 0; k < 3; k++)
+        double depth = 0.0, corner_weight[3];
+        for (int k = 0; k < 3; k++) {
             depth += (double)(weight[k] + i * step[k]) * (double)p->depth[k];
+            corner_weight[p->order[k]] = (double)(weight[k] + i * step[k]) / (double)p->area;
+        }
         voxel[(r->axis + 1) % 3] = first_u + (int32_t)i;
         voxel[r->axis] = nook_grid_layer(depth / (double)p->area, r->inner[r->axis]);
-        nook_voxel_grid_set(r->grid, voxel);
+        r->mark(r->user, voxel, corner_weight);
     }
 }
 
-void nook_rasterize_three_way(const nook_snapped_triangle *triangle, const int32_t inner[3], nook_voxel_grid *grid)
+void nook_rasterize_three_way(const nook_snapped_triangle *triangle, const int32_t inner[3], nook_rasterize_mark mark,
+                              void *user)
 {
     int32_t first[3], last[3];
     for (int axis = 0; axis < 3; axis++) {
@@ -129,7 +136,7 @@ void nook_rasterize_three_way(const nook_snapped_triangle *triangle, const int32
         projection p;
         if (first[across] > last[across] || first[up] > last[up] || !project(triangle, axis, &p))
             continue;
-        raster r = { inner, grid, axis };
+        raster r = { inner, axis, mark, user };
         for (int32_t row = first[up]; row <= last[up]; row++)
             rasterize_row(&p, &r, first[across], last[across], row);
     }
@@ -155,7 +162,7 @@ static double altitude(const nook_snapped_triangle *triangle, int from, int to, 
 }
 
 void nook_rasterize_narrow(const nook_snapped_triangle *triangle, const int32_t inner[3],
-                           const nook_voxel_grid *rasterized, nook_voxel_grid *out_extra)
+                           const nook_voxel_grid *rasterized, nook_rasterize_mark mark, void *user)
 {
     int from = 0;
     double longest = 0.0;
@@ -173,13 +180,15 @@ void nook_rasterize_narrow(const nook_snapped_triangle *triangle, const int32_t 
     /* Half a voxel a step: no voxel that the edge crosses for longer than that is passed over. */
     int32_t steps = 1 + (int32_t)(length / (NOOK_SUBVOXEL / 2));
     for (int32_t i = 0; i < steps; i++) {
-        double at = (i + 0.5) / steps;
+        double at = (i + 0.5) / steps, weight[3] = { 0.0, 0.0, 0.0 };
         int32_t voxel[3];
+        weight[from] = 1.0 - at;
+        weight[to] = at;
         for (int axis = 0; axis < 3; axis++) {
             double a = triangle->corner[from][axis], b = triangle->corner[to][axis];
             voxel[axis] = nook_grid_layer(a + (b - a) * at, inner[axis]);
         }
         if (!nook_voxel_grid_has_near(rasterized, voxel))
-            nook_voxel_grid_set(out_extra, voxel);
+            mark(user, voxel, weight);
     }
 }

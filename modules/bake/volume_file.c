@@ -93,8 +93,8 @@ nook_result nook_volume_decode_info(const char *name, const void *bytes, size_t 
         return nook_fail(NOOK_E_FORMAT, "%s: damaged: its checksum is wrong; bake it again", name);
 
     /* A checksum tells damage, not malice: everything is still checked. */
-    if (get_u32(file + AT_KIND) != NOOK_VOLUME_BINARY && get_u32(file + AT_KIND) != NOOK_VOLUME_SURFEL)
-        return nook_fail(NOOK_E_FORMAT, "%s: kind %u, this build reads 0 (binary) and 2 (surfel)", name,
+    if (get_u32(file + AT_KIND) >= NOOK_VOLUME_KINDS)
+        return nook_fail(NOOK_E_FORMAT, "%s: kind %u, this build reads " NOOK_VOLUME_KINDS_TEXT, name,
                          get_u32(file + AT_KIND));
     nook_volume_info info = get_info(file);
     const char *fault = find_fault(&info);
@@ -149,8 +149,12 @@ const char *nook_volume_kind_name(nook_volume_kind kind)
     switch (kind) {
     case NOOK_VOLUME_BINARY:
         return "binary";
+    case NOOK_VOLUME_DENSITY:
+        return "density";
     case NOOK_VOLUME_SURFEL:
         return "surfel";
+    case NOOK_VOLUME_DISTANCE:
+        return "distance";
     }
     return NULL;
 }

@@ -1,5 +1,5 @@
 /**
- * volume_file.h - the .nkv file: one occluder's voxels or surfels. Format: docs/volume_format.md.
+ * volume_file.h - the .nkv file: one occluder's voxels, densities, surfels or distances. Format: docs/volume_format.md.
  */
 #pragma once
 #include "engine/core/result.h"
@@ -14,15 +14,23 @@ extern "C" {
 #define NOOK_VOLUME_SIDE_MAX 514u /**< 512 and the empty border on both sides. */
 
 typedef enum nook_volume_kind {
-    NOOK_VOLUME_BINARY = 0, /**< A voxel is 255 where a surface was voxelised (voxelize.h says which), else 0. */
-    NOOK_VOLUME_SURFEL = 2, /**< Planes inside of voxels, in bricks: docs/surfel_bricks.md. */
+    NOOK_VOLUME_BINARY = 0,   /**< A voxel is 255 where a surface was voxelised (voxelize.h says which), else 0. */
+    NOOK_VOLUME_DENSITY = 1,  /**< The largest alpha of what lies in a voxel, 255 opaque: docs/volume_kinds.md. */
+    NOOK_VOLUME_SURFEL = 2,   /**< Planes inside of voxels, in bricks: docs/surfel_bricks.md. */
+    NOOK_VOLUME_DISTANCE = 3, /**< How far the nearest surface is from a voxel's centre: docs/volume_kinds.md. */
 } nook_volume_kind;
 
-enum { NOOK_VOLUME_KINDS = 3 /**< Their numbers are below; those that are none have no name. */ };
+enum {
+    NOOK_VOLUME_KINDS = 4,         /**< Their numbers are below. */
+    NOOK_DISTANCES_PER_VOXEL = 32, /**< A distance of one voxel as it is stored; 255 is all from there on. */
+    NOOK_DISTANCE_OCCUPIED = NOOK_DISTANCES_PER_VOXEL / 2 /**< Nearer than this a voxel counts as occupied. */
+};
+/** All of them, for messages: their numbers and names. */
+#define NOOK_VOLUME_KINDS_TEXT "0 (binary), 1 (density), 2 (surfel) and 3 (distance)"
 /** A set of kinds is bits. */
 #define NOOK_VOLUME_BIT(kind) (1u << (kind))
 
-/** Kinds by name: "binary", "surfel". @return NULL for a number that is none */
+/** Kinds by name: "binary", "density", "surfel", "distance". @return NULL for a number that is none */
 const char *nook_volume_kind_name(nook_volume_kind kind);
 
 /** What a volume is, without its contents. */
@@ -32,7 +40,7 @@ typedef struct nook_volume_info {
     double voxel_size;             /**< Metres in mesh space, > 0; the same on all axes. */
     double origin[3];              /**< Metres, mesh space: outer corner of voxel (0, 0, 0). */
     uint64_t content_hash;         /**< Of the triangles and the bake settings; tells a stale bake. */
-    uint64_t occupied;             /**< Voxels that are not 0, or have a surfel. */
+    uint64_t occupied; /**< Voxels that are not 0, have a surfel, or whose distance is below NOOK_DISTANCE_OCCUPIED. */
 } nook_volume_info;
 
 /** 4 x 4 x 4 voxels. Layout of the GPU's: RGBA32UI. */
@@ -53,7 +61,7 @@ typedef struct nook_surfel {
 /** A volume in memory. */
 typedef struct nook_volume {
     nook_volume_info info;
-    uint8_t *voxels;      /**< Binary: width * height * depth bytes, x fastest, then y, then z; else NULL. Owned. */
+    uint8_t *voxels; /**< But for surfels: width * height * depth bytes, x fastest, then y, then z; else NULL. Owned. */
     nook_brick *bricks;   /**< Surfel: those of nook_brick_counts, x fastest, then y, then z; else NULL. Owned. */
     nook_surfel *surfels; /**< Surfel: info.occupied of them, in the order of bricks; else NULL. Owned. */
 } nook_volume;

@@ -18,7 +18,7 @@ size_t nook_payload_size(const nook_volume_info *info)
 {
     if (info->kind == NOOK_VOLUME_SURFEL)
         return nook_brick_total(info) * MASK_BYTES + (size_t)info->occupied * SURFEL_BYTES;
-    return (count_voxels(info) + 7) / 8;
+    return info->kind == NOOK_VOLUME_BINARY ? (count_voxels(info) + 7) / 8 : count_voxels(info);
 }
 
 static nook_result wrong_count(const char *name, uint64_t occupied, const nook_volume_info *info)
@@ -41,6 +41,14 @@ static uint64_t unpack_bits(const uint8_t *bits, size_t voxel_count, uint8_t *ou
     return occupied;
 }
 
+static bool is_empty(const uint8_t *voxels, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (voxels[i])
+            return false;
+    return true;
+}
+
 /* Marching relies on it: the filtered volume must fade out before it ends (shaders/ao/occluders.glsl). */
 static bool outermost_layer_is_empty(const nook_volume_info *info, const uint8_t *voxels)
 {
@@ -48,7 +56,7 @@ static bool outermost_layer_is_empty(const nook_volume_info *info, const uint8_t
         for (uint32_t y = 0; y < info->height; y++) {
             const uint8_t *row = voxels + ((size_t)z * info->height + y) * info->width;
             bool whole = z == 0 || y == 0 || z == info->depth - 1 || y == info->height - 1;
-            if (row[0] || row[info->width - 1] || (whole && memchr(row, 255, info->width)))
+            if (row[0] || row[info->width - 1] || (whole && !is_empty(row, info->width)))
                 return false;
         }
     }
@@ -86,6 +94,65 @@ static bool pack_bits(const nook_volume *volume, uint8_t *out_bits)
         occupied += bit;
     }
     return occupied == volume->info.occupied;
+}
+
+/* ---- Densities and distances: a byte a voxel --------------------------------------------------------------------- */
+
+/* Two voxels apart by one along an axis: their distances cannot differ by more than that, and rounding. */
+static bool may_be_neighbours(uint8_t a, uint8_t b)
+{
+    return abs((int)a - (int)b) <= NOOK_DISTANCES_PER_VOXEL + 1;
+}
+
+static bool are_distances(const nook_volume_info *info, const uint8_t *voxels)
+{
+    size_t row = info->width, slice = row * info->height, i = 0;
+    for (uint32_t z = 0; z < info->depth; z++)
+        for (uint32_t y = 0; y < info->height; y++)
+            for (uint32_t x = 0; x < info->width; x++, i++)
+                if ((x > 0 && !may_be_neighbours(voxels[i], voxels[i - 1])) ||
+                    (y > 0 && !may_be_neighbours(voxels[i], voxels[i - row])) ||
+                    (z > 0 && !may_be_neighbours(voxels[i], voxels[i - slice])))
+                    return false;
+    return true;
+}
+
+/* What is wrong with the bytes, or NULL; how many they say are occupied. */
+static const char *find_byte_fault(const nook_volume_info *info, const uint8_t *voxels, uint64_t *out_occupied)
+{
+    bool distances = info->kind == NOOK_VOLUME_DISTANCE;
+    size_t count = count_voxels(info);
+    *out_occupied = 0;
+    for (size_t i = 0; i < count; i++)
+        *out_occupied += distances ? voxels[i] < NOOK_DISTANCE_OCCUPIED : voxels[i] > 0;
+    if (distances)
+        return are_distances(info, voxels) ? NULL : "neighbours that no distances are";
+    return outermost_layer_is_empty(info, voxels) ? NULL : "voxels that are set in its outermost layer";
+}
+
+static nook_result read_bytes(const char *name, const uint8_t *raw, nook_volume *volume)
+{
+    size_t count = count_voxels(&volume->info);
+    uint64_t occupied;
+    const char *fault = find_byte_fault(&volume->info, raw, &occupied);
+    if (occupied != volume->info.occupied)
+        return wrong_count(name, occupied, &volume->info);
+    if (fault)
+        return nook_fail(NOOK_E_FORMAT, "%s: %s; bake it again", name, fault);
+    volume->voxels = malloc(count);
+    if (!volume->voxels)
+        return nook_fail(NOOK_E_MEMORY, "%s: no memory for %zu voxels", name, count);
+    memcpy(volume->voxels, raw, count);
+    return NOOK_OK;
+}
+
+static bool write_bytes(const nook_volume *volume, uint8_t *out)
+{
+    uint64_t occupied;
+    if (find_byte_fault(&volume->info, volume->voxels, &occupied) || occupied != volume->info.occupied)
+        return false;
+    memcpy(out, volume->voxels, count_voxels(&volume->info));
+    return true;
 }
 
 /* ---- Surfels ---------------------------------------------------------------------------------------------------- */
@@ -179,23 +246,47 @@ static bool write_surfels(const nook_volume *volume, uint8_t *out)
     return true;
 }
 
-/* ---- Either ----------------------------------------------------------------------------------------------------- */
+/* ---- Any of them ------------------------------------------------------------------------------------------------- */
 
 nook_result nook_payload_write(const nook_volume *volume, uint8_t *out)
 {
-    if (volume->info.kind == NOOK_VOLUME_SURFEL)
+    switch (volume->info.kind) {
+    case NOOK_VOLUME_BINARY:
+        return pack_bits(volume, out) ? NOOK_OK
+                                      : nook_fail(NOOK_E_ARG, "volume: voxels other than 0 and 255, or not as many "
+                                                              "occupied as it says");
+    case NOOK_VOLUME_SURFEL:
         return write_surfels(volume, out)
                    ? NOOK_OK
                    : nook_fail(NOOK_E_ARG, "volume: surfels that are no planes, outside, or not as many as it says");
-    return pack_bits(volume, out) ? NOOK_OK
-                                  : nook_fail(NOOK_E_ARG, "volume: voxels other than 0 and 255, or not as many "
-                                                          "occupied as it says");
+    case NOOK_VOLUME_DENSITY:
+    case NOOK_VOLUME_DISTANCE:
+        break;
+    }
+    return write_bytes(volume, out) ? NOOK_OK
+                                    : nook_fail(NOOK_E_ARG,
+                                                "volume: %s: voxels that no file may hold, or not as many "
+                                                "occupied as it says",
+                                                nook_volume_kind_name(volume->info.kind));
+}
+
+static nook_result read_kind(const char *name, const uint8_t *raw, nook_volume *volume)
+{
+    switch (volume->info.kind) {
+    case NOOK_VOLUME_BINARY:
+        return read_voxels(name, raw, volume);
+    case NOOK_VOLUME_SURFEL:
+        return read_surfels(name, raw, volume);
+    case NOOK_VOLUME_DENSITY:
+    case NOOK_VOLUME_DISTANCE:
+        break;
+    }
+    return read_bytes(name, raw, volume);
 }
 
 nook_result nook_payload_read(const char *name, const uint8_t *raw, nook_volume *volume)
 {
-    nook_result result =
-        volume->info.kind == NOOK_VOLUME_SURFEL ? read_surfels(name, raw, volume) : read_voxels(name, raw, volume);
+    nook_result result = read_kind(name, raw, volume);
     if (result != NOOK_OK) {
         nook_volume_info info = volume->info;
         nook_volume_free(volume);

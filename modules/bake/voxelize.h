@@ -18,16 +18,34 @@
  */
 #pragma once
 #include "modules/bake/volume_file.h"
+#include <stdbool.h>
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-/* What the kind "surfel" holds, and how it is fitted: docs/surfel_bricks.md. Its grid lies where that of the voxels does. */
+/* What the other kinds hold, and how they are made: docs/surfel_bricks.md, docs/volume_kinds.md. Their grid lies where that of the
+   voxels does. */
 
 /** Raise it when the voxels of the same triangles change: cached volumes of older versions are then baked again. */
 #define NOOK_VOXELIZE_VERSION 2u
 #define NOOK_VOXELIZE_RESOLUTION_MAX (NOOK_VOLUME_SIDE_MAX - 2u)
+
+/** Triangles that are not opaque, all in one way; the kind "density" alone looks at them. */
+typedef struct nook_alpha_part {
+    size_t first_index, index_count; /**< Of the indices; multiples of 3. */
+    float alpha;                     /**< Of all of it; multiplies the texture's. [0, 1]. */
+    bool masked;                     /**< Opaque where alpha is at least `cutoff`, and not there elsewhere. */
+    float cutoff;
+    const uint8_t *texels; /**< RGBA, 4 bytes each, top row first, at uv (0, 0) to (1, 1) and repeated; NULL: none. */
+    uint32_t width, height;
+} nook_alpha_part;
+
+typedef struct nook_alphas {
+    const nook_alpha_part *parts; /**< In the order of their triangles, apart from each other; others are opaque. */
+    uint32_t part_count;
+    const float *uvs; /**< Two a vertex, packed; NULL where no part has a texture. */
+} nook_alphas;
 
 typedef struct nook_triangles {
     const float *positions; /**< xyz, metres, mesh space. */
@@ -41,19 +59,20 @@ typedef struct nook_voxelize_desc {
     uint32_t resolution;   /**< Voxels along the longest side of the mesh's box, the border not counted: [1, 512]. */
     uint32_t threads;      /**< 0: all cores. The result does not depend on it. */
     nook_volume_kind kind; /**< What is made of the triangles; 0: voxels. */
+    const nook_alphas *alphas; /**< Of the triangles; NULL: all are opaque. */
 } nook_voxelize_desc;
 
 /**
  * Makes the volume of a soup: its bounding box at `resolution`, plus one empty voxel on every side.
  * Degenerate triangles are voxelised as the segments or points they are, and have no surfels, which cover area; triangles with a non-finite corner are left out
  * (one warning counts them). Soups smaller than a micrometre are voxelised as if they were that large.
- * @return NOOK_E_RANGE resolution or kind; NOOK_E_ARG nothing finite to voxelise, or indices or stride out of bounds;
+ * @return NOOK_E_RANGE resolution or kind; NOOK_E_ARG nothing finite to voxelise, or indices, stride or parts out of bounds;
  *         NOOK_E_MEMORY; *out_volume is untouched on failure. Its content_hash is nook_voxelize_hash's.
  */
 nook_result nook_voxelize(const nook_triangles *triangles, const nook_voxelize_desc *desc, nook_volume *out_volume);
 
 /**
- * Identifies a bake: a hash of positions, indices, kind, resolution and the versions of voxeliser and file. Threads and stride
+ * Identifies a bake: a hash of positions, indices, kind, resolution and the versions of voxeliser and file, and for densities of parts. Threads and stride
  * do not enter. Takes what nook_voxelize takes.
  */
 uint64_t nook_voxelize_hash(const nook_triangles *triangles, const nook_voxelize_desc *desc);

@@ -36,6 +36,13 @@ vec4 fetch_filtered(sampler3D from, vec3 at)
     return textureLod(from, at, 0.0);
 }
 
+// One texel as it is.
+vec4 fetch_texel(sampler3D from, ivec3 at)
+{
+    fetches++;
+    return texelFetch(from, at, 0);
+}
+
 // A record of a texture buffer.
 uvec4 fetch_record(usamplerBuffer from, int index)
 {

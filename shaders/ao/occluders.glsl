@@ -7,12 +7,12 @@ struct Occluder {
     vec4 voxel_from_view[3];  // rows
     vec4 normal_from_view[3]; // rows of the inverse transpose
     vec4 size;                // voxels; w: bounding radius, metres
-    vec4 place;               // binary: voxel of the atlas that is our (0, 0, 0); surfel: first brick, x + 65536 y
+    vec4 place;               // voxel of the atlas that is our (0, 0, 0); surfel: first brick, x + 65536 y
     vec4 centre;              // view space
 };
 const int OCCLUDER_ROWS = 9;
 layout(binding = 3) uniform samplerBuffer occluder_rows; // a software driver reads storage at half the speed
-layout(binding = 2) uniform sampler3D volume_atlas; // linear filtering
+layout(binding = 2) uniform sampler3D volume_atlas; // of the kind that is marched; linear filtering
 
 // The filtered volume is 0 outside of [MARGIN, size - MARGIN]: the outermost voxels are empty.
 const float MARGIN = 0.5;

@@ -2,7 +2,7 @@
 // Surfel bricks: what they hold, and a ray's way through them. docs/surfel_bricks.md. All lengths are in voxels, so that no number
 // depends on the scene's scale.
 #include "ao/counter.glsl"
-#include "ao/falloff.glsl"
+#include "ao/passage.glsl"
 layout(binding = 5) uniform usamplerBuffer bricks;  // mask low, mask high, first surfel, distance to the next occupied brick
 layout(binding = 6) uniform usamplerBuffer surfels; // two planes; the second may be 0
 
@@ -13,7 +13,6 @@ const uint SIDE_ABOVE = 1u;
 // Voxels by which a plane reaches past the other one that it ends at: what rounding to bytes may leave open between the two.
 const float SIDE_SLACK = 0.04;
 const float FACES_ALIKE = 0.6; // cosine from which a plane may be the receiver's own: the normals of a voxel's two planes differ
-const float OPAQUE = 0.02;     // transmittance below which a ray ends, and its last hit takes what is left
 const float PARALLEL = 1e-6;   // cosine
 
 // A ray from a fragment, as one volume sees it.
@@ -25,17 +24,6 @@ struct Ray {
     float metre; // voxels along it
     float reach; // how far it goes
 };
-
-// What a ray has met: occlusion so far, what still gets through, and where nothing does any more (metres).
-struct Passage {
-    float occlusion, transmittance, end;
-    float last, covered; // the last plane that was met: where (voxels), and its alpha
-};
-
-Passage free_passage()
-{
-    return Passage(0.0, 1.0, 1e30, -1e30, 0.0);
-}
 
 // xyz: unit normal; w: offset from the voxel's middle.
 vec4 plane_of(uint word)
@@ -73,23 +61,13 @@ float hit_plane(uint word, vec4 plane, vec4 other, Ray ray, vec3 origin, vec3 po
     return hit && !is_own(plane, point, ray.normal, slope) ? h : -1.0;
 }
 
-// A plane takes its share. Where planes reach out of their voxels the same surface is met twice: it counts once, with the larger alpha.
-void pass_through(float h, float alpha, Ray ray, inout Passage passage)
+// Where planes reach out of their voxels the same surface is met twice: it counts once.
+void pass_plane(float h, float alpha, Ray ray, inout Passage passage)
 {
     if (h < 0.0 || passage.transmittance == 0.0)
         return;
-    float covered = abs(h - passage.last) < params.tolerance ? passage.covered : 0.0;
-    float through = (1.0 - max(alpha, covered)) / (1.0 - covered);
+    pass_through(h, ray.metre, alpha, abs(h - passage.last) < params.tolerance, passage);
     passage.last = h;
-    passage.covered = max(alpha, covered);
-    float left = passage.transmittance * through, taken = passage.transmittance - left;
-    if (left < OPAQUE) {
-        taken = passage.transmittance;
-        left = 0.0;
-        passage.end = h / ray.metre;
-    }
-    passage.occlusion += taken * falloff(h / ray.metre);
-    passage.transmittance = left;
 }
 
 // The planes of one voxel take their shares, the nearer one first.
@@ -103,13 +81,8 @@ void meet_surfel(uint index, vec3 middle, Ray ray, float enter, float leave, ino
         b = hit_plane(words.y, second, first, ray, origin, point, enter, leave);
     float alpha_a = alpha_of(words.x), alpha_b = alpha_of(words.y);
     bool swapped = b >= 0.0 && b < a;
-    pass_through(swapped ? b : a, swapped ? alpha_b : alpha_a, ray, passage);
-    pass_through(swapped ? a : b, swapped ? alpha_a : alpha_b, ray, passage);
-}
-
-float least(vec3 v)
-{
-    return min(v.x, min(v.y, v.z));
+    pass_plane(swapped ? b : a, swapped ? alpha_b : alpha_a, ray, passage);
+    pass_plane(swapped ? a : b, swapped ? alpha_a : alpha_b, ray, passage);
 }
 
 // Bit of a voxel in its brick's mask: Morton order, so that a byte of it is a block of 2 x 2 x 2.

@@ -1,13 +1,11 @@
 // Technique "volume", binary volumes: Papaioannou, Menexi, Papadopoulos 2010, section 5.1, errata C2, C5, C7, C8, C9 of
 // docs/techniques.md.
 #include "ao/volume_pass.glsl"
-// What waits for the next dispatch: union, a ray's nearest hit so far; multiply, the sum over an occluder's rays so far.
-layout(binding = 1, r32f) uniform image2D kept_image;
+#include "ao/nearest_hit.glsl"
 
 const int STEPPING_FIXED = 0;
 const int GUARD_SLAB = 0;
 const float FILTER_PRECISION = 0.015; // voxels: hardware interpolates with 8-bit weights, three axes of 1/256 and a little
-const float NO_HIT = 1e30;
 
 #ifdef CORNERS
 layout(binding = 7) uniform usamplerBuffer corners; // corners.comp.glsl
@@ -119,46 +117,5 @@ float march(Occluder o, Receiver r, vec3 d, float cosine, float limit, float jit
     return NO_HIT;
 }
 
-// Exact for any number of volumes: rho of the nearest hit, ray by ray. Uniform control flow. `sum` is that over the rays of earlier
-// parts; rays are added one by one, so that the cut does not show in the result. A part without the last occluder has one ray
-// only, whose nearest hit waits.
-float sum_union(float sum, bool inside, vec3 position, vec3 normal, ivec2 pixel)
-{
-    vec3 tangent, bitangent;
-    tangent_frame(normal, tangent, bitangent);
-    int block = block_of(pixel);
-    float shift = noise(pixel, 1u), start = part.z > 0 ? imageLoad(kept_image, pixel).r : frame.r_max;
-    for (int first = part.x; first < part.y; first += BATCH) {
-        int batch = min(BATCH, part.y - first);
-        Batch nearest = Batch(vec4(start), vec4(start));
-        for (int chunk = part.z; chunk < part.w; chunk += CHUNK) {
-            if (first == part.x || part.w - part.z > CHUNK)
-                tile_list(chunk, part.w);
-            uint listed = inside ? tile_count : 0u;
-            for (uint i = 0u; i < listed; i++) {
-                Occluder o = occluder_at(tile_items[i]);
-                Receiver r = receive(o, position, normal);
-                if (!r.can_see)
-                    continue;
-                for (int j = 0; j < batch; j++) {
-                    vec3 d = direction(first + j, params.rays, block, tangent, bitangent, normal);
-                    float jitter = fract(shift + float(first + j) * 0.61803399);
-                    float before = batch_get(nearest, j);
-                    batch_set(nearest, j, min(before, march(o, r, d, dot(d, normal), before, jitter)));
-                }
-            }
-        }
-        if (part.w < occluder_count)
-            imageStore(kept_image, pixel, vec4(nearest.low.x));
-        for (int j = 0; j < batch; j++)
-            sum += part.w == occluder_count ? falloff(batch_get(nearest, j)) : 0.0;
-    }
-    return sum;
-}
-
-float occlusion_along(Occluder o, Receiver r, vec3 d, float cosine, float jitter)
-{
-    return falloff(march(o, r, d, cosine, frame.r_max, jitter));
-}
-
+#include "ao/volume_nearest.glsl"
 #include "ao/volume_main.glsl"

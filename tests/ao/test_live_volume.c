@@ -90,9 +90,10 @@ static void voxelize(fixture *f)
 {
     f->mesh.ranges = &f->part;
     assert_int_equal(nook_ao_voxelize(f->ao, f->volume, &f->mesh), NOOK_OK);
-    const atlas_entry *entry = volume_atlas_find(&f->ao->atlas, f->volume.id);
+    const atlas_entry *entry = volume_atlas_find(&f->ao->atlases[NOOK_VOLUME_BINARY], f->volume.id);
     assert_int_equal(entry->info.width, GRID);
-    nook_texture_read(f->gpu, f->ao->atlas.texture, GL_RED, GL_UNSIGNED_BYTE, f->voxels, GRID * GRID * GRID);
+    nook_texture_read(f->gpu, f->ao->atlases[NOOK_VOLUME_BINARY].texture, GL_RED, GL_UNSIGNED_BYTE, f->voxels,
+                      GRID * GRID * GRID);
 }
 
 static void close_fixture(fixture *f)
@@ -196,7 +197,7 @@ static void test_grids_move_by_whole_voxels(void **state)
         f.mesh.box_min[0] = -0.5f + by;
         f.mesh.box_max[0] = 0.5f + by;
         assert_int_equal(nook_ao_voxelize(f.ao, f.volume, &f.mesh), NOOK_OK);
-        const nook_volume_info *info = &volume_atlas_find(&f.ao->atlas, f.volume.id)->info;
+        const nook_volume_info *info = &volume_atlas_find(&f.ao->atlases[NOOK_VOLUME_BINARY], f.volume.id)->info;
         double whole = info->origin[0] / info->voxel_size;
         assert_true(fabs(whole - round(whole)) < 1e-9);
         assert_true(info->origin[0] + info->voxel_size <= (double)f.mesh.box_min[0] + 1e-9);

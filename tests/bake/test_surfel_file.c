@@ -212,7 +212,7 @@ static void test_encoding_refuses_surfels_that_no_file_may_hold(void **state)
     volume.surfels[3].plane[0] = 0;
     assert_int_equal(nook_volume_encode(&volume, &bytes, &size), NOOK_E_ARG);
     volume.surfels[3].plane[0] = before;
-    volume.info.kind = (nook_volume_kind)1;
+    volume.info.kind = (nook_volume_kind)NOOK_VOLUME_KINDS;
     assert_int_equal(nook_volume_encode(&volume, &bytes, &size), NOOK_E_ARG);
     volume.info.kind = NOOK_VOLUME_SURFEL;
     nook_log_set_sink(NULL, NULL);

@@ -64,6 +64,8 @@ static stage *make_stage(void)
     assert_non_null(s);
     for (uint32_t i = 0; i < MESHES; i++)
         make_cube(s, i);
+    for (int i = 0; i < 3; i++)
+        s->materials[i].base_colour_image = NOOK_NONE;
     s->materials[MASKED].alpha_mode = NOOK_ALPHA_MASK;
     s->materials[BLENDED].alpha_mode = NOOK_ALPHA_BLEND;
     place(s, 0, 1, false, -10.0);
@@ -156,9 +158,43 @@ static void test_blended_materials_are_left_out_and_masked_ones_are_in(void **st
     s->primitives[1].material = BLENDED;
     s->primitives[2].material = MASKED;
     nook_scene_volumes v = bake(s, 16, 2.0);
-    assert_int_equal(v.volume_count, 1);
-    assert_int_equal(v.occluder_count, 1);
     assert_int_equal(v.volumes[0].index_count, 36);
+    assert_int_equal(v.volumes[0].blended_index_count, 36);
+    assert_int_equal(v.volumes[1].index_count, 0); /* three instances of glass alone */
+    assert_null(nook_scene_volume_bake(&v.volumes[1]));
+    nook_volumes_free(&v);
+    free(s);
+}
+
+static void test_densities_hold_blended_materials_with_their_alpha(void **state)
+{
+    (void)state;
+    stage *s = make_stage();
+    s->primitives[0].material = BLENDED;
+    s->primitives[1].material = MASKED;
+    s->materials[BLENDED].base_colour[3] = 0.4f;
+    s->materials[MASKED].base_colour[3] = 0.4f;
+    s->materials[MASKED].alpha_cutoff = 0.5f; /* nowhere there */
+    nook_scene_volumes v;
+    const nook_volumes_desc desc = {
+        .resolution = 32, .r_max = 2.0, .threads = 1, .kinds = NOOK_VOLUME_BIT(NOOK_VOLUME_DENSITY)
+    };
+    assert_int_equal(nook_volumes_bake(&s->scene, &desc, &v), NOOK_OK);
+    assert_int_equal(v.volume_count, 2);
+    uint32_t most[2] = { 0, 0 };
+    for (int i = 0; i < 2; i++) {
+        const nook_bake *bake = nook_scene_volume_bake(&v.volumes[i]);
+        nook_volume volume;
+        assert_int_equal(nook_volume_decode("density", bake->bytes, bake->size, &volume), NOOK_OK);
+        assert_int_equal(volume.info.kind, NOOK_VOLUME_DENSITY);
+        size_t count = (size_t)volume.info.width * volume.info.height * volume.info.depth, half = volume.info.width / 2;
+        for (size_t k = 0; k < count; k++)
+            if (i == 1 || k % volume.info.width < half) /* of "static" the cube at x = -10 */
+                most[i] = volume.voxels[k] > most[i] ? volume.voxels[k] : most[i];
+        nook_volume_free(&volume);
+    }
+    assert_int_equal(most[0], 0);
+    assert_int_equal(most[1], 102);
     nook_volumes_free(&v);
     free(s);
 }
@@ -322,6 +358,7 @@ int main(void)
         cmocka_unit_test(test_instances_share_one_bake),
         cmocka_unit_test(test_static_nodes_become_one_volume_in_world_space),
         cmocka_unit_test(test_blended_materials_are_left_out_and_masked_ones_are_in),
+        cmocka_unit_test(test_densities_hold_blended_materials_with_their_alpha),
         cmocka_unit_test(test_scene_with_nothing_to_bake_has_no_volumes),
         cmocka_unit_test(test_corners_that_are_not_finite_are_left_out),
         cmocka_unit_test(test_body_without_extent_is_warned_about_and_left_out),

@@ -1,0 +1,27 @@
+/**
+ * density_bake.h - triangles to the largest alpha in each voxel: docs/volume_kinds.md; inside modules/bake only. nook_voxelize calls it.
+ */
+#pragma once
+#include "modules/bake/triangle_grid.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Raise it when the densities of the same triangles change: cached ones of older versions are then baked again. */
+#define NOOK_DENSITY_BAKE_VERSION 1u
+
+/**
+ * @param alphas  checked; NULL: all is opaque @param frame  of the checked soup
+ * @param out_volume  its voxels and info.occupied are made, all else of it is zero; untouched on failure
+ * @return NOOK_E_MEMORY
+ */
+nook_result nook_density_bake(const nook_triangles *triangles, const nook_alphas *alphas, unsigned threads,
+                              const nook_grid_frame *frame, nook_volume *out_volume);
+
+/** Of all that densities are made of and voxels are not: alphas, texels, and where on them corners lie. @param seed  the hash so far */
+uint64_t nook_density_hash(const nook_triangles *triangles, const nook_alphas *alphas, uint64_t seed);
+
+#ifdef __cplusplus
+}
+#endif
