@@ -115,7 +115,9 @@ void nook_ao_set_supply(nook_ao *ao, nook_ao_supply supply, void *user)
 nook_result ao_ask_for_volumes(nook_ao *ao, uint32_t kinds)
 {
     bool missing = false;
-    for (uint32_t i = 0; kinds && ao->supply && i < ao->occluder_count && !missing; i++) {
+    if (!ao->supply || kinds == 0)
+        return NOOK_OK;
+    for (uint32_t i = 0; i < ao->occluder_count && !missing; i++) {
         uint32_t id = ao->occluders[i].volume.id;
         missing = ao_volume_id_is_known(ao, id) && !ao_volume_info(ao, id, kinds);
     }
