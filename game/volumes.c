@@ -105,7 +105,7 @@ static void append_primitive(const nook_scene *scene, const nook_primitive *prim
 /* Its blended primitives, or all others: those come last. Appends what of it came to `parts`, as one each, unless that is NULL. @return
    how many */
 static uint32_t append_mesh(const nook_scene *scene, const nook_mesh *mesh, const nook_matrix *space, bool blended,
-                            nook_scene_volume *volume, nook_scene_part *parts)
+                            nook_scene_volume *volume, nook_volumes_part *parts)
 {
     uint32_t count = 0;
     for (uint32_t i = 0; i < mesh->primitive_count; i++) {
@@ -115,7 +115,7 @@ static uint32_t append_mesh(const nook_scene *scene, const nook_mesh *mesh, cons
             continue;
         append_primitive(scene, primitive, space, volume);
         if (parts && volume->index_count > first)
-            parts[count++] = (nook_scene_part){ first, volume->index_count - first };
+            parts[count++] = (nook_volumes_part){ first, volume->index_count - first };
     }
     return count;
 }

@@ -58,9 +58,9 @@ typedef struct nook_scene_occluder {
 } nook_scene_occluder;
 
 /** A primitive of what stands still. */
-typedef struct nook_scene_part {
+typedef struct nook_volumes_part {
     size_t first_index, index_count; /**< Into the static volume's indices. */
-} nook_scene_part;
+} nook_volumes_part;
 
 /** What may be left out and made coarser (docs/plan.md). */
 typedef struct nook_volumes_plan {
@@ -75,7 +75,7 @@ typedef struct nook_scene_volumes {
     uint32_t volume_count;
     nook_scene_occluder *occluders;
     uint32_t occluder_count;
-    nook_scene_part *
+    nook_volumes_part *
         parts; /**< Of the static volume, in its order; those that draw something. Empty once a plan has split it, and where
                      some of it is blended. */
     uint32_t part_count;

@@ -24,7 +24,7 @@ static void copy_group(const nook_plan *plan, const nook_scene_volumes *volumes,
 {
     size_t count = 0;
     for (uint32_t i = 0; i < volumes->part_count; i++) {
-        const nook_scene_part *part = &volumes->parts[i];
+        const nook_volumes_part *part = &volumes->parts[i];
         for (size_t k = 0; k < part->index_count && plan->group_of_part[i] == group; k++) {
             uint32_t old = whole->indices[part->first_index + k];
             if (new_of_old[old] == UINT32_MAX) {

@@ -110,7 +110,7 @@ static void describe_parts(const nook_scene_volumes *volumes, nook_plan_descript
             continue;
         out->scene.static_volume = occluder->volume;
         for (uint32_t k = 0; k < volumes->part_count; k++) {
-            const nook_scene_part *part = &volumes->parts[k];
+            const nook_volumes_part *part = &volumes->parts[k];
             out->parts[k].box = box_of(&volumes->volumes[occluder->volume], &occluder->world_from_mesh,
                                        part->first_index, part->index_count);
         }
