@@ -21,23 +21,14 @@ static nook_result check_sizes(const nook_texture *colours, uint32_t colour_coun
     return NOOK_OK;
 }
 
-nook_result nook_framebuffer_create(nook_gpu *gpu, const nook_texture *colours, uint32_t colour_count,
-                                    nook_texture depth, nook_framebuffer *out_framebuffer)
+/* The targets are those of the shader's outputs; what the driver cannot draw to is deleted. */
+static nook_result complete(nook_gpu *gpu, nook_framebuffer framebuffer, uint32_t colour_count,
+                            nook_framebuffer *out_framebuffer)
 {
     const nook_gl *gl = gpu->gl;
-    nook_result result = check_sizes(colours, colour_count, depth);
-    if (result != NOOK_OK)
-        return result;
-    const nook_texture *first = colour_count > 0 ? &colours[0] : &depth;
-    nook_framebuffer framebuffer = { .width = first->width, .height = first->height };
     GLenum targets[COLOUR_CAPACITY] = { GL_NONE };
-    gl->CreateFramebuffers(1, &framebuffer.id);
-    for (uint32_t i = 0; i < colour_count; i++) {
+    for (uint32_t i = 0; i < colour_count; i++)
         targets[i] = GL_COLOR_ATTACHMENT0 + i;
-        gl->NamedFramebufferTexture(framebuffer.id, targets[i], colours[i].id, 0);
-    }
-    if (depth.id != 0)
-        gl->NamedFramebufferTexture(framebuffer.id, GL_DEPTH_ATTACHMENT, depth.id, 0);
     gl->NamedFramebufferDrawBuffers(framebuffer.id, colour_count > 0 ? (GLsizei)colour_count : 1, targets);
     GLenum status = gl->CheckNamedFramebufferStatus(framebuffer.id, GL_DRAW_FRAMEBUFFER);
     if (status != GL_FRAMEBUFFER_COMPLETE) {
@@ -47,6 +38,36 @@ nook_result nook_framebuffer_create(nook_gpu *gpu, const nook_texture *colours, 
     }
     *out_framebuffer = framebuffer;
     return NOOK_OK;
+}
+
+nook_result nook_framebuffer_create(nook_gpu *gpu, const nook_texture *colours, uint32_t colour_count,
+                                    nook_texture depth, nook_framebuffer *out_framebuffer)
+{
+    const nook_gl *gl = gpu->gl;
+    nook_result result = check_sizes(colours, colour_count, depth);
+    if (result != NOOK_OK)
+        return result;
+    const nook_texture *first = colour_count > 0 ? &colours[0] : &depth;
+    nook_framebuffer framebuffer = { .width = first->width, .height = first->height };
+    gl->CreateFramebuffers(1, &framebuffer.id);
+    for (uint32_t i = 0; i < colour_count; i++)
+        gl->NamedFramebufferTexture(framebuffer.id, GL_COLOR_ATTACHMENT0 + i, colours[i].id, 0);
+    if (depth.id != 0)
+        gl->NamedFramebufferTexture(framebuffer.id, GL_DEPTH_ATTACHMENT, depth.id, 0);
+    return complete(gpu, framebuffer, colour_count, out_framebuffer);
+}
+
+nook_result nook_framebuffer_create_slices(nook_gpu *gpu, nook_texture colours, nook_framebuffer *out_framebuffer)
+{
+    const nook_gl *gl = gpu->gl;
+    if (colours.id == 0 || colours.depth > COLOUR_CAPACITY)
+        return nook_fail(NOOK_E_RANGE, "framebuffer: a texture of %u slices; 1 to %d can be drawn to at once",
+                         colours.depth, COLOUR_CAPACITY);
+    nook_framebuffer framebuffer = { .width = colours.width, .height = colours.height };
+    gl->CreateFramebuffers(1, &framebuffer.id);
+    for (uint32_t i = 0; i < colours.depth; i++)
+        gl->NamedFramebufferTextureLayer(framebuffer.id, GL_COLOR_ATTACHMENT0 + i, colours.id, 0, (GLint)i);
+    return complete(gpu, framebuffer, colours.depth, out_framebuffer);
 }
 
 void nook_framebuffer_destroy(nook_gpu *gpu, nook_framebuffer *framebuffer)

@@ -223,6 +223,8 @@ static inline uint32_t nook_groups(uint32_t size, uint32_t local)
  */
 nook_result nook_framebuffer_create(nook_gpu *gpu, const nook_texture *colours, uint32_t colour_count,
                                     nook_texture depth, nook_framebuffer *out_framebuffer);
+/** The same with the slices of a 3D texture, 1 to 8, as colours, and without depth. @return as above */
+nook_result nook_framebuffer_create_slices(nook_gpu *gpu, nook_texture colours, nook_framebuffer *out_framebuffer);
 void nook_framebuffer_destroy(nook_gpu *gpu, nook_framebuffer *framebuffer); /**< id 0 is allowed; becomes zero. */
 /** Draws go there from now on, and the viewport covers it. */
 void nook_framebuffer_bind(nook_gpu *gpu, nook_framebuffer framebuffer);

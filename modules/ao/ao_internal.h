@@ -4,6 +4,7 @@
 #pragma once
 #include "modules/ao/brick_pool_internal.h"
 #include "modules/ao/nook_ao.h"
+#include "modules/ao/slicemap.h"
 #include "modules/ao/technique.h"
 #include "modules/ao/volume_atlas_internal.h"
 #include <stdbool.h>
@@ -73,8 +74,7 @@ typedef struct ao_region {
 
 /** What live volumes are made with; all zero before there is one. */
 typedef struct ao_voxelizer {
-    nook_texture slices[3]; /**< RGBA32UI: a bit for each of 128 layers along x, y, z. */
-    nook_framebuffer targets[3];
+    nook_slicemap slices[3]; /**< Along x, y, z. */
     uint32_t vertex_array;
 } ao_voxelizer;
 

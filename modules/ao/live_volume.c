@@ -6,46 +6,28 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum {
-    SIDE = NOOK_AO_LIVE_SIDE_MAX,
-    LOCATION_GRID = 0,
-    LOCATION_AXIS = 1,
-    LOCATION_SIDE = 2,
-    LOCATION_ORIGIN = 0,
-    LOCATION_SIZE = 1,
-    GROUP = 4,
-};
+enum { SIDE = NOOK_AO_LIVE_SIDE_MAX, LOCATION_ORIGIN = 0, LOCATION_SIZE = 1, GROUP = 4 };
+
+_Static_assert((int)SIDE <= (int)NOOK_SLICEMAP_BITS, "shaders/ao/voxel_merge.comp.glsl reads one texel of a column");
 
 /* ---- Life -------------------------------------------------------------------------------------------------------- */
 
 static nook_result make_voxelizer(nook_ao *ao)
 {
     ao_voxelizer *v = &ao->voxelizer;
-    const nook_gl *gl = ao->gpu->gl;
     nook_result result = NOOK_OK;
-    for (int axis = 0; axis < 3 && result == NOOK_OK; axis++) {
-        if (v->slices[axis].id)
-            continue;
-        result = nook_texture_create_2d(ao->gpu, GL_RGBA32UI, SIDE, SIDE, GL_NEAREST, &v->slices[axis]);
-        if (result == NOOK_OK)
-            result = nook_framebuffer_create(ao->gpu, &v->slices[axis], 1, (nook_texture){ 0 }, &v->targets[axis]);
-    }
-    if (result != NOOK_OK || v->vertex_array)
-        return result;
-    gl->CreateVertexArrays(1, &v->vertex_array);
-    gl->EnableVertexArrayAttrib(v->vertex_array, 0);
-    gl->VertexArrayAttribFormat(v->vertex_array, 0, 3, GL_FLOAT, GL_FALSE, 0);
-    gl->VertexArrayAttribBinding(v->vertex_array, 0, 0);
-    return NOOK_OK;
+    for (int axis = 0; axis < 3 && result == NOOK_OK; axis++)
+        result = nook_slicemap_fit(&v->slices[axis], ao->gpu, SIDE);
+    if (result == NOOK_OK && !v->vertex_array)
+        v->vertex_array = nook_slicing_vertex_array(ao->gpu);
+    return result;
 }
 
 void ao_voxelizer_release(nook_ao *ao)
 {
     ao_voxelizer *v = &ao->voxelizer;
-    for (int axis = 0; axis < 3; axis++) {
-        nook_framebuffer_destroy(ao->gpu, &v->targets[axis]);
-        nook_texture_destroy(ao->gpu, &v->slices[axis]);
-    }
+    for (int axis = 0; axis < 3; axis++)
+        nook_slicemap_release(&v->slices[axis], ao->gpu);
     if (v->vertex_array)
         ao->gpu->gl->DeleteVertexArrays(1, &v->vertex_array);
     *v = (ao_voxelizer){ .vertex_array = 0 };
@@ -78,40 +60,6 @@ nook_result nook_ao_add_live_volume(nook_ao *ao, const char *name, const uint32_
 
 /* ---- Voxelising -------------------------------------------------------------------------------------------------- */
 
-/* GL's state that rasterising needs otherwise than a host may have it. */
-typedef struct kept_state {
-    GLint framebuffer, viewport[4];
-    GLboolean enabled[5];
-} kept_state;
-
-static const GLenum switches[5] = { GL_DEPTH_TEST, GL_CULL_FACE, GL_SCISSOR_TEST, GL_BLEND, GL_STENCIL_TEST };
-
-static kept_state begin_raster(const nook_gl *gl)
-{
-    kept_state kept;
-    gl->GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &kept.framebuffer);
-    gl->GetIntegerv(GL_VIEWPORT, kept.viewport);
-    for (int i = 0; i < 5; i++) {
-        kept.enabled[i] = gl->IsEnabled(switches[i]);
-        gl->Disable(switches[i]);
-    }
-    gl->Enable(GL_COLOR_LOGIC_OP);
-    gl->LogicOp(GL_OR);
-    return kept;
-}
-
-static void end_raster(const nook_gl *gl, const kept_state *kept)
-{
-    gl->Disable(GL_COLOR_LOGIC_OP);
-    gl->LogicOp(GL_COPY);
-    for (int i = 0; i < 5; i++)
-        if (kept->enabled[i])
-            gl->Enable(switches[i]);
-    gl->BindVertexArray(0);
-    gl->BindFramebuffer(GL_FRAMEBUFFER, (GLuint)kept->framebuffer);
-    gl->Viewport(kept->viewport[0], kept->viewport[1], kept->viewport[2], kept->viewport[3]);
-}
-
 /* The grid stands still while the box moves in it: its corner is a whole number of voxels from the mesh's origin. */
 static void fit_grid(const nook_ao_live_mesh *mesh, const atlas_box *room, nook_volume_info *info)
 {
@@ -126,30 +74,29 @@ static void fit_grid(const nook_ao_live_mesh *mesh, const atlas_box *room, nook_
     }
 }
 
-static void draw_slices(nook_ao *ao, const nook_volume_info *info, const nook_ao_live_mesh *mesh, nook_program program)
+static nook_result draw_slices(nook_ao *ao, const nook_volume_info *info, const nook_ao_live_mesh *mesh)
 {
-    const nook_gl *gl = ao->gpu->gl;
-    const ao_voxelizer *v = &ao->voxelizer;
-    const GLuint zero[4] = { 0 };
-    const float side = SIDE, grid[4] = { (float)info->origin[0], (float)info->origin[1], (float)info->origin[2],
-                                         (float)(1.0 / info->voxel_size) };
-    gl->VertexArrayVertexBuffer(v->vertex_array, 0, mesh->vertex_buffer, 0, (GLsizei)mesh->vertex_stride);
-    gl->VertexArrayElementBuffer(v->vertex_array, mesh->index_buffer);
-    gl->BindVertexArray(v->vertex_array);
-    nook_program_use(ao->gpu, program);
-    nook_uniform_float(ao->gpu, LOCATION_GRID, grid, 4);
-    nook_uniform_float(ao->gpu, LOCATION_SIDE, &side, 1);
-    for (int32_t axis = 0; axis < 3; axis++) {
-        gl->ClearNamedFramebufferuiv(v->targets[axis].id, GL_COLOR, 0, zero);
-        nook_framebuffer_bind(ao->gpu, v->targets[axis]);
-        nook_uniform_int(ao->gpu, LOCATION_AXIS, &axis, 1);
-        for (uint32_t i = 0; i < mesh->range_count; i++) {
-            const nook_ao_triangle_range *part = &mesh->ranges[i];
-            gl->DrawElementsBaseVertex(GL_TRIANGLES, (GLsizei)part->index_count, GL_UNSIGNED_INT,
-                                       (const void *)((uintptr_t)part->first_index * sizeof(uint32_t)),
-                                       (GLint)part->first_vertex);
-        }
+    nook_slice_mesh triangles = { .vertex_buffer = mesh->vertex_buffer,
+                                  .vertex_stride = mesh->vertex_stride,
+                                  .index_buffer = mesh->index_buffer };
+    for (int axis = 0; axis < 3; axis++) {
+        triangles.voxel_from_mesh[axis][axis] = (float)(1.0 / info->voxel_size);
+        triangles.voxel_from_mesh[axis][3] = (float)(-info->origin[axis] / info->voxel_size); /* a whole number */
     }
+    nook_slicing slicing;
+    nook_result result = NOOK_OK;
+    nook_slicing_begin(ao->gpu, ao->voxelizer.vertex_array, &slicing);
+    for (int32_t axis = 0; axis < 3 && result == NOOK_OK; axis++) {
+        result = nook_slicing_map(&slicing, &ao->voxelizer.slices[axis], axis);
+        if (result != NOOK_OK)
+            break;
+        nook_slicing_mesh(&slicing, &triangles);
+        for (uint32_t i = 0; i < mesh->range_count; i++)
+            nook_slicing_draw(&slicing, mesh->ranges[i].first_index, mesh->ranges[i].index_count,
+                              mesh->ranges[i].first_vertex);
+    }
+    nook_slicing_end(&slicing);
+    return result;
 }
 
 static void merge_slices(nook_ao *ao, const atlas_entry *entry, nook_program program)
@@ -159,7 +106,7 @@ static void merge_slices(nook_ao *ao, const atlas_entry *entry, nook_program pro
     const int32_t origin[3] = { (int32_t)entry->box.origin[0], (int32_t)entry->box.origin[1],
                                 (int32_t)entry->box.origin[2] };
     for (uint32_t axis = 0; axis < 3; axis++)
-        nook_bind_texture(ao->gpu, axis, ao->voxelizer.slices[axis]);
+        nook_bind_texture(ao->gpu, axis, ao->voxelizer.slices[axis].bits);
     nook_bind_image(ao->gpu, 0, ao->atlases[NOOK_VOLUME_BINARY].texture, GL_WRITE_ONLY);
     nook_program_use(ao->gpu, program);
     nook_uniform_int(ao->gpu, LOCATION_ORIGIN, origin, 3);
@@ -170,16 +117,13 @@ static void merge_slices(nook_ao *ao, const atlas_entry *entry, nook_program pro
 
 nook_result nook_ao_voxelize(nook_ao *ao, nook_ao_volume volume, const nook_ao_live_mesh *mesh)
 {
-    nook_program slice, merge;
+    nook_program merge;
     const atlas_entry *entry = volume_atlas_find(&ao->atlases[NOOK_VOLUME_BINARY], volume.id);
     if (!entry)
         return nook_fail(NOOK_E_ARG, "volume %u is not there to be made anew", volume.id);
     if (!(mesh->voxel_size > 0.0) || !isfinite(mesh->voxel_size))
         return nook_fail(NOOK_E_ARG, "voxels of %g m; their side must be above 0", mesh->voxel_size);
-    nook_result result = nook_program_raster(ao->gpu, "shaders/ao/voxel_slice.vert.glsl",
-                                             "shaders/ao/voxel_slice.frag.glsl", "", &slice);
-    if (result == NOOK_OK)
-        result = nook_program_compute(ao->gpu, "shaders/ao/voxel_merge.comp.glsl", "", &merge);
+    nook_result result = nook_program_compute(ao->gpu, "shaders/ao/voxel_merge.comp.glsl", "", &merge);
     if (result == NOOK_OK)
         result = volume_atlas_flush(&ao->atlases[NOOK_VOLUME_BINARY]);
     if (result != NOOK_OK)
@@ -187,9 +131,8 @@ nook_result nook_ao_voxelize(nook_ao *ao, nook_ao_volume volume, const nook_ao_l
     nook_volume_info info = entry->info;
     fit_grid(mesh, &entry->box, &info);
     volume_atlas_set_info(&ao->atlases[NOOK_VOLUME_BINARY], volume.id, &info);
-    kept_state kept = begin_raster(ao->gpu->gl);
-    draw_slices(ao, &info, mesh, slice);
-    end_raster(ao->gpu->gl, &kept);
-    merge_slices(ao, entry, merge);
-    return NOOK_OK;
+    result = draw_slices(ao, &info, mesh);
+    if (result == NOOK_OK)
+        merge_slices(ao, entry, merge);
+    return result;
 }

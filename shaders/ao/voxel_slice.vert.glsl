@@ -1,16 +1,19 @@
 #version 450
-// Triangles seen along one axis of a voxel grid: modules/ao/live_volume.c.
+// Triangles seen along one axis of a voxel grid: modules/ao/slicemap.h.
 layout(location = 0) in vec3 position; // mesh space
 
 layout(location = 0) out float layer; // voxels along the axis
 
-layout(location = 0) uniform vec4 grid; // origin, mesh space; w: 1 / side of a voxel
-layout(location = 1) uniform int axis;
-layout(location = 2) uniform float side; // pixels of the target
+layout(location = 0) uniform vec4 row_x; // of voxel_from_mesh
+layout(location = 1) uniform vec4 row_y;
+layout(location = 2) uniform vec4 row_z;
+layout(location = 3) uniform int axis;
+layout(location = 4) uniform float side; // pixels of the target
 
 void main()
 {
-    vec3 voxel = (position - grid.xyz) * grid.w;
+    vec4 point = vec4(position, 1.0);
+    vec3 voxel = vec3(dot(row_x, point), dot(row_y, point), dot(row_z, point));
     layer = voxel[axis];
     vec2 across = axis == 0 ? voxel.yz : axis == 1 ? voxel.xz : voxel.xy;
     gl_Position = vec4(across * (2.0 / side) - 1.0, 0.0, 1.0);

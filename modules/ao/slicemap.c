@@ -1,0 +1,119 @@
+#include "modules/ao/slicemap.h"
+#include <assert.h>
+#include <stdio.h>
+
+enum { LOCATION_ROWS = 0 /* to 2 */, LOCATION_AXIS = 3, LOCATION_SIDE = 4 };
+
+static const GLenum switches[5] = { GL_DEPTH_TEST, GL_CULL_FACE, GL_SCISSOR_TEST, GL_BLEND, GL_STENCIL_TEST };
+
+nook_result nook_slicemap_fit(nook_slicemap *map, nook_gpu *gpu, uint32_t side)
+{
+    assert(side >= 1 && side <= NOOK_SLICEMAP_SIDE_MAX);
+    if (map->bits.id && map->bits.width >= side)
+        return NOOK_OK;
+    nook_slicemap_release(map, gpu);
+    nook_result result = nook_texture_create_3d(gpu, GL_RGBA32UI, side, side, nook_groups(side, NOOK_SLICEMAP_BITS),
+                                                GL_NEAREST, &map->bits);
+    if (result == NOOK_OK)
+        result = nook_framebuffer_create_slices(gpu, map->bits, &map->target);
+    if (result != NOOK_OK)
+        nook_slicemap_release(map, gpu);
+    return result;
+}
+
+void nook_slicemap_release(nook_slicemap *map, nook_gpu *gpu)
+{
+    nook_framebuffer_destroy(gpu, &map->target);
+    nook_texture_destroy(gpu, &map->bits);
+}
+
+static nook_result slice_program(const nook_slicemap *map, nook_gpu *gpu, nook_program *out_program)
+{
+    char defines[32];
+    snprintf(defines, sizeof defines, "#define TEXELS %u\n", map->bits.depth);
+    return nook_program_raster(gpu, "shaders/ao/voxel_slice.vert.glsl", "shaders/ao/voxel_slice.frag.glsl", defines,
+                               out_program);
+}
+
+nook_result nook_slicemap_shader_version(const nook_slicemap *map, nook_gpu *gpu, uint32_t *out_version)
+{
+    nook_program program;
+    nook_result result = slice_program(map, gpu, &program);
+    if (result == NOOK_OK)
+        *out_version = nook_program_version(gpu, program);
+    return result;
+}
+
+uint32_t nook_slicing_vertex_array(nook_gpu *gpu)
+{
+    const nook_gl *gl = gpu->gl;
+    GLuint name;
+    gl->CreateVertexArrays(1, &name);
+    gl->EnableVertexArrayAttrib(name, 0);
+    gl->VertexArrayAttribFormat(name, 0, 3, GL_FLOAT, GL_FALSE, 0);
+    gl->VertexArrayAttribBinding(name, 0, 0);
+    return name;
+}
+
+void nook_slicing_begin(nook_gpu *gpu, uint32_t vertex_array, nook_slicing *out_slicing)
+{
+    const nook_gl *gl = gpu->gl;
+    nook_slicing slicing = { .gpu = gpu, .vertex_array = vertex_array };
+    gl->GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &slicing.framebuffer);
+    gl->GetIntegerv(GL_VIEWPORT, slicing.viewport);
+    for (int i = 0; i < 5; i++) {
+        slicing.enabled[i] = gl->IsEnabled(switches[i]);
+        gl->Disable(switches[i]);
+    }
+    gl->Enable(GL_COLOR_LOGIC_OP);
+    gl->LogicOp(GL_OR);
+    gl->BindVertexArray(vertex_array);
+    *out_slicing = slicing;
+}
+
+nook_result nook_slicing_map(const nook_slicing *slicing, const nook_slicemap *map, int32_t axis)
+{
+    nook_gpu *gpu = slicing->gpu;
+    nook_program program;
+    nook_result result = slice_program(map, gpu, &program);
+    if (result != NOOK_OK)
+        return result;
+    const GLuint zero[4] = { 0 };
+    const float side = (float)map->bits.width;
+    for (GLint i = 0; i < (GLint)map->bits.depth; i++)
+        gpu->gl->ClearNamedFramebufferuiv(map->target.id, GL_COLOR, i, zero);
+    nook_framebuffer_bind(gpu, map->target);
+    nook_program_use(gpu, program);
+    nook_uniform_int(gpu, LOCATION_AXIS, &axis, 1);
+    nook_uniform_float(gpu, LOCATION_SIDE, &side, 1);
+    return NOOK_OK;
+}
+
+void nook_slicing_mesh(const nook_slicing *slicing, const nook_slice_mesh *mesh)
+{
+    const nook_gl *gl = slicing->gpu->gl;
+    gl->VertexArrayVertexBuffer(slicing->vertex_array, 0, mesh->vertex_buffer, 0, (GLsizei)mesh->vertex_stride);
+    gl->VertexArrayElementBuffer(slicing->vertex_array, mesh->index_buffer);
+    for (uint32_t row = 0; row < 3; row++)
+        nook_uniform_float(slicing->gpu, LOCATION_ROWS + row, mesh->voxel_from_mesh[row], 4);
+}
+
+void nook_slicing_draw(const nook_slicing *slicing, uint32_t first_index, uint32_t index_count, uint32_t first_vertex)
+{
+    slicing->gpu->gl->DrawElementsBaseVertex(GL_TRIANGLES, (GLsizei)index_count, GL_UNSIGNED_INT,
+                                             (const void *)((uintptr_t)first_index * sizeof(uint32_t)),
+                                             (GLint)first_vertex);
+}
+
+void nook_slicing_end(const nook_slicing *slicing)
+{
+    const nook_gl *gl = slicing->gpu->gl;
+    gl->Disable(GL_COLOR_LOGIC_OP);
+    gl->LogicOp(GL_COPY);
+    for (int i = 0; i < 5; i++)
+        if (slicing->enabled[i])
+            gl->Enable(switches[i]);
+    gl->BindVertexArray(0);
+    gl->BindFramebuffer(GL_FRAMEBUFFER, (GLuint)slicing->framebuffer);
+    gl->Viewport(slicing->viewport[0], slicing->viewport[1], slicing->viewport[2], slicing->viewport[3]);
+}

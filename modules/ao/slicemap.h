@@ -1,0 +1,79 @@
+/**
+ * slicemap.h - triangles voxelised by the rasteriser: a picture whose bits are layers of voxels (Eisemann, Decoret: Fast Scene
+ * Voxelization and Applications, 2006).
+ *
+ * A grid is looked along by one of its axes. A pixel is a column of voxels, and each bit of it one voxel: the blend's logic op ORs the
+ * bits of all triangles that cross the line through the pixel's centre. What is seen edge-on covers no centre, so that one slicemap
+ * has holes where surfaces hold its axis; three of them, one along each axis, have none but for crumbs.
+ *
+ *   begin -> for each map: clear, then draws -> end
+ *
+ * shaders/ao/slicemap.glsl reads what shaders/ao/voxel_slice.* write.
+ */
+#pragma once
+#include "engine/gpu/gpu.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum {
+    NOOK_SLICEMAP_BITS = 128, /**< Layers of a texel: RGBA32UI. */
+    NOOK_SLICEMAP_TEXELS = 4, /**< Texels of a column at the most: 512 layers. */
+    NOOK_SLICEMAP_SIDE_MAX = NOOK_SLICEMAP_BITS * NOOK_SLICEMAP_TEXELS,
+};
+
+typedef struct nook_slicemap {
+    nook_texture bits; /**< RGBA32UI, 3D: texel (x, y, t) holds layers 128 t to 128 t + 127 of column (x, y). */
+    nook_framebuffer target;
+} nook_slicemap;
+
+/**
+ * Makes room for a grid of `side` voxels along each axis; keeps what is larger. Zero-initialise before the first call.
+ * @param side  1 to NOOK_SLICEMAP_SIDE_MAX
+ * @return NOOK_E_MEMORY, NOOK_E_DEVICE; the map is released then
+ */
+nook_result nook_slicemap_fit(nook_slicemap *map, nook_gpu *gpu, uint32_t side);
+void nook_slicemap_release(nook_slicemap *map, nook_gpu *gpu);
+/**
+ * Changes when the shaders that fill the map were reloaded: what keeps a map makes it anew then.
+ * @return NOOK_E_NOT_FOUND, NOOK_E_DEVICE: the shaders
+ */
+nook_result nook_slicemap_shader_version(const nook_slicemap *map, nook_gpu *gpu, uint32_t *out_version);
+
+/** GL's state while triangles are sliced; what a host had is put back at the end. */
+typedef struct nook_slicing {
+    nook_gpu *gpu;
+    uint32_t vertex_array;
+    int32_t framebuffer, viewport[4];
+    uint8_t enabled[5];
+} nook_slicing;
+
+/** Indexed triangles on the GPU. */
+typedef struct nook_slice_mesh {
+    uint32_t vertex_buffer; /**< GL name; a vertex begins with its position, three floats. */
+    uint32_t vertex_stride; /**< Bytes. */
+    uint32_t index_buffer;  /**< GL name; 32-bit. */
+    /** Rows: voxels of the grid, whose first one is (0, 0, 0) to (1, 1, 1). What leaves the map marks nothing. */
+    float voxel_from_mesh[3][4];
+} nook_slice_mesh;
+
+/** A vertex array for nook_slicing_begin; the caller deletes it: DeleteVertexArrays. */
+uint32_t nook_slicing_vertex_array(nook_gpu *gpu);
+/** Takes GL over until nook_slicing_end: framebuffer, viewport, tests, logic op. */
+void nook_slicing_begin(nook_gpu *gpu, uint32_t vertex_array, nook_slicing *out_slicing);
+/**
+ * Empties a map; draws go to it from now on.
+ * @param axis  0, 1, 2: what it looks along. Its columns are (y, z), (x, z), (x, y) of the grid
+ * @return NOOK_E_NOT_FOUND, NOOK_E_DEVICE: the shaders
+ */
+nook_result nook_slicing_map(const nook_slicing *slicing, const nook_slicemap *map, int32_t axis);
+/** What is drawn from now on. */
+void nook_slicing_mesh(const nook_slicing *slicing, const nook_slice_mesh *mesh);
+/** @param first_index, index_count  a multiple of 3 @param first_vertex  added to each index */
+void nook_slicing_draw(const nook_slicing *slicing, uint32_t first_index, uint32_t index_count, uint32_t first_vertex);
+void nook_slicing_end(const nook_slicing *slicing);
+
+#ifdef __cplusplus
+}
+#endif
