@@ -100,7 +100,7 @@ const nook_mesh_pose *nook_game_world_poses(const nook_game_world *world, uint32
  */
 nook_result nook_game_world_voxelize(nook_game_world *world, nook_render_scene *scene, const nook_camera *camera,
                                      double aspect);
-/** Whether the next updates also give the reference the triangles of deformables as they are; false at first. */
+/** Whether the next updates also give techniques that read triangles those of deformables as they are; false at first. */
 void nook_game_world_set_traced(nook_game_world *world, bool traced);
 
 /** What the last update collected; valid until the next. */

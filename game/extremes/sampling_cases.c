@@ -193,6 +193,8 @@ static const series growing[] = {
     { "hbao", "steps", "", 256, 256 },
     { "gtao", "slices", "", 256, 256 },
     { "gtao", "steps", "", 256, 256 },
+    { "hao", "rays", "", 1024, 1024 },
+    { "hao", "tests", "", 256, 256 },
     { "reference", "rays", "", 4096, 1024 },
 };
 

@@ -159,6 +159,17 @@ static nook_result draw_views(nook_live *live, const nook_live_views *state)
     return NOOK_OK;
 }
 
+/* In every frame, and not of those alone that are kept for the truth. */
+static bool reads_triangles(nook_live *live)
+{
+    bool reads = false;
+    for (uint32_t i = 0; i < live->views.count; i++) {
+        const nook_ao_technique *technique = live_setting_of(live, i).technique;
+        reads = reads || (!technique->exact && technique->inputs & NOOK_AO_IN_MESHES);
+    }
+    return reads;
+}
+
 /* The frame that is to be kept is drawn once more. */
 static nook_result follow(nook_live *live, const nook_camera *camera)
 {
@@ -168,7 +179,7 @@ static nook_result follow(nook_live *live, const nook_camera *camera)
     nook_result result = NOOK_OK;
     if (!kept || resized) {
         live_truth_stop(live);
-        nook_game_world_set_traced(stage->world, keep);
+        nook_game_world_set_traced(stage->world, keep || reads_triangles(live));
         result = draw_gbuffer(live, kept ? &live->camera : camera);
     }
     live->frozen = keep;

@@ -159,7 +159,9 @@ static nook_ao_pass make_pass(nook_ao *ao, const nook_ao_frame *frame, uint32_t 
     const volume_atlas *atlas = marched_atlas(ao);
     int full = ao->scale == 0;
     frame_block projection = { 0 };
+    nook_matrix view_from_world;
     set_projection(frame->clip_from_view, &projection);
+    memcpy(view_from_world.m, frame->view_from_world, sizeof view_from_world.m);
     return (nook_ao_pass){
         .gpu = ao->gpu,
         .depth = full ? targets->depth : trace->depth,
@@ -178,6 +180,7 @@ static nook_ao_pass make_pass(nook_ao *ao, const nook_ao_frame *frame, uint32_t 
         .falloff_tau = ao->shared.falloff_tau,
         .ray_scale = { projection.ray_scale[0], projection.ray_scale[1] },
         .ray_offset = { projection.ray_offset[0], projection.ray_offset[1] },
+        .view_from_world = view_from_world,
         .seed = frame->index,
         .progress = ao->progress,
         .progress_user = ao->progress_user,

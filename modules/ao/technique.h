@@ -14,7 +14,7 @@
 extern "C" {
 #endif
 
-#define NOOK_AO_TECHNIQUE_VERSION 5
+#define NOOK_AO_TECHNIQUE_VERSION 6
 
 /** Triangles for the reference, in mesh space. */
 typedef struct nook_ao_mesh_view {
@@ -57,7 +57,8 @@ typedef struct nook_ao_pass {
     double falloff_tau;
     /** View position of a pixel: (ndc * ray_scale + ray_offset, -1) * depth, with ndc = 2 (pixel + 0.5) / size - 1. */
     double ray_scale[2], ray_offset[2];
-    uint32_t seed; /**< From the frame index. */
+    nook_matrix view_from_world; /**< Rigid: for what stands still in the world while the view moves. */
+    uint32_t seed;               /**< From the frame index. */
     /** For work over a second: fraction in [0, 1]. Never NULL; called on the recording thread. */
     void (*progress)(void *user, double fraction);
     void *progress_user;

@@ -43,6 +43,12 @@ vec4 fetch_texel(sampler3D from, ivec3 at)
     return texelFetch(from, at, 0);
 }
 
+uvec4 fetch_texel(usampler3D from, ivec3 at)
+{
+    fetches++;
+    return texelFetch(from, at, 0);
+}
+
 // A record of a texture buffer.
 uvec4 fetch_record(usamplerBuffer from, int index)
 {

@@ -315,7 +315,7 @@ static void test_filter_never_writes_nan_whatever_the_buffers_hold(void **state)
 
 static void test_techniques_never_write_nan_whatever_the_buffers_hold(void **state)
 {
-    static const char *const techniques[] = { "volume", "ssao", "hsao", "hbao", "gtao", "reference" };
+    static const char *const techniques[] = { "volume", "ssao", "hsao", "hbao", "gtao", "hao", "reference" };
     nook_fixture_view *view = start(state, 37, 23);
     nook_fixture_mesh mesh = { 0 };
     nook_fixture_add_box(&mesh, (double[]){ -1, -1, -3 }, (double[]){ 1, 1, -1 }, 63);

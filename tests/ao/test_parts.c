@@ -12,7 +12,7 @@
 
 enum { WIDTH = 67, HEIGHT = 45, PIXELS = WIDTH * HEIGHT };
 
-static const char *const techniques[] = { "volume", "ssao", "hsao", "hbao", "gtao", "reference" };
+static const char *const techniques[] = { "volume", "ssao", "hsao", "hbao", "gtao", "hao", "reference" };
 static const char *const filters[] = { "none", "disc", "tile" };
 static const char *const upscales[] = { "direct", "stepped", "bilinear" };
 static const nook_rectangle parts[] = { { 0, 0, 33, HEIGHT }, { 17, 9, 1, 1 },   { 21, 5, 40, 13 },

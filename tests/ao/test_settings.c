@@ -55,7 +55,8 @@ static double value_of(nook_ao *ao, const char *name)
 static void test_settings_list_the_techniques_when_a_name_is_unknown(void **state)
 {
     nook_ao *ao = context(state);
-    EXPECT_REFUSED(nook_ao_set_technique(ao, "alchemy"), NOOK_E_NOT_FOUND, "volume, ssao, hsao, hbao, gtao, reference");
+    EXPECT_REFUSED(nook_ao_set_technique(ao, "alchemy"), NOOK_E_NOT_FOUND,
+                   "volume, ssao, hsao, hbao, gtao, hao, reference");
     EXPECT_REFUSED(nook_ao_set_param(ao, "alchemy.rays", 1), NOOK_E_NOT_FOUND, "ao, volume, ssao, hsao, hbao");
     EXPECT_REFUSED(nook_ao_set_param(ao, "rays", 1), NOOK_E_NOT_FOUND, "technique.parameter");
     EXPECT_REFUSED(nook_ao_set_param(ao, "", 1), NOOK_E_NOT_FOUND, "technique.parameter");
@@ -183,7 +184,7 @@ static void test_settings_tables_list_every_parameter_with_its_initial_value(voi
     assert_null(nook_ao_technique_at(fresh, 0));
     nook_ao_destroy(fresh);
     assert_string_equal(nook_ao_technique_at(view->ao, 1)->name, "ssao");
-    assert_null(nook_ao_technique_at(view->ao, 7));
+    assert_null(nook_ao_technique_at(view->ao, 8));
 }
 
 static void test_context_refuses_another_version_no_device_and_no_pixels(void **state)

@@ -18,7 +18,7 @@ json_number() { grep -m 1 "\"$2\"" "$1" | sed 's/.*: //; s/,.*//'; }
 test_compare_writes_every_file_of_the_report() {
     local name file
     compare_crate --out "$tmp/all" >"$tmp/table"
-    for name in reference volume ssao hsao hbao gtao; do
+    for name in reference volume ssao hsao hbao gtao hao; do
         for file in "$name.png" "lit_$name.png"; do
             [ "$(png_size "$tmp/all/$file")" = '96 x 64' ]
         done
@@ -26,12 +26,12 @@ test_compare_writes_every_file_of_the_report() {
         [ "$(stat -c %s "$tmp/all/$name.pfm")" -eq $((14 + 96 * 64 * 4)) ]
         assert_holds "$(cat "$tmp/table")" "$name"
     done
-    for name in volume ssao hsao hbao gtao; do
+    for name in volume ssao hsao hbao gtao hao; do
         [ "$(png_size "$tmp/all/error_$name.png")" = '96 x 64' ]
     done
     [ "$(identify -format '%w' "$tmp/all/compare.png")" -gt 800 ]
     [ ! -e "$tmp/all/error_reference.png" ]
-    [ "$(find "$tmp/all" -type f | wc -l)" -eq $((6 * 3 + 5 + 2)) ] # nothing temporary is left
+    [ "$(find "$tmp/all" -type f | wc -l)" -eq $((7 * 3 + 6 + 2)) ] # nothing temporary is left
 }
 
 test_views_are_written_when_asked_for_and_go_with_the_next_run() {
@@ -147,7 +147,7 @@ test_bad_input_is_one_line_and_leaves_nothing_behind() {
     refused 1 'directory' "$tmp"
     printf 'glTF is not what this is' >"$tmp/broken.glb"
     refused 1 'broken.glb' "$tmp/broken.glb"
-    refused 2 "choose from volume, ssao, hsao, hbao, gtao, reference" "$crate" --techniques volume,magic
+    refused 2 "choose from volume, ssao, hsao, hbao, gtao, hao, reference" "$crate" --techniques volume,magic
     refused 1 "'corner'" "$crate" --camera nowhere
     refused 2 'shadow_map' "$crate" --view shadows
     refused 2 'field of view' "$crate" --camera 1,1,1,0,0,0,179

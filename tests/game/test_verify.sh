@@ -33,7 +33,7 @@ test_what_techniques_claim_holds_on_planes_pits_walls_and_ceilings() {
     # From above, the wall at a tenth of r_max is a pixel wide: whoever looks, no more can be asked.
     [ "$(rows '[a-z]*' 'above .* unresolved: pixels leave 0' | wc -l)" -eq 5 ]
     # The open plane is 0 for all.
-    for name in reference volume ssao hsao hbao gtao; do
+    for name in reference volume ssao hsao hbao gtao hao; do
         sed -n '/^1 plane/,/^4 /p' "$tmp/table" | grep "^  .*  $name " | near 0 0.01
     done
 }

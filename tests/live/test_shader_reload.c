@@ -94,7 +94,7 @@ static void test_every_shader_of_ours_can_be_reloaded_and_pictures_stay(void **s
     fixture *self = *state;
     picture before, after;
     nook_shader_report report;
-    static const char *const names[] = { "volume", "ssao", "hsao", "hbao", "gtao" };
+    static const char *const names[] = { "volume", "ssao", "hsao", "hbao", "gtao", "hao" };
     for (size_t i = 0; i < NOOK_COUNT(names); i++) {
         assert_int_equal(nook_ao_set_technique(self->stage.ao, names[i]), NOOK_OK);
         draw(self, NOOK_VIEW_LIT, before);

@@ -1,6 +1,7 @@
 #include "tests/support/ao_view.h"
 #include "modules/ao/technique.h"
 #include "modules/ao_gtao/gtao.h"
+#include "modules/ao_hao/hao.h"
 #include "modules/ao_hbao/hbao.h"
 #include "modules/ao_hsao/hsao.h"
 #include "modules/ao_reference/reference.h"
@@ -52,10 +53,10 @@ static const nook_ao_technique probe_technique = {
 
 nook_fixture_view *ao_view_create(uint32_t width, uint32_t height)
 {
-    static const nook_ao_technique *const techniques[] = { &nook_ao_volume_technique, &nook_ao_ssao_technique,
-                                                           &nook_ao_hsao_technique,   &nook_ao_hbao_technique,
-                                                           &nook_ao_gtao_technique,   &nook_ao_reference_technique,
-                                                           &probe_technique };
+    static const nook_ao_technique *const techniques[] = { &nook_ao_volume_technique,    &nook_ao_ssao_technique,
+                                                           &nook_ao_hsao_technique,      &nook_ao_hbao_technique,
+                                                           &nook_ao_gtao_technique,      &nook_ao_hao_technique,
+                                                           &nook_ao_reference_technique, &probe_technique };
     test_view *test = calloc(1, sizeof *test);
     assert_non_null(test);
     assert_int_equal(test_gpu_create(NULL, &test->gpu), NOOK_OK);

@@ -1,0 +1,24 @@
+/** meshes_internal.h - the host's triangles on the GPU, copied once. */
+#pragma once
+#include "modules/ao/technique.h"
+#include "modules/ao_hao/grid_internal.h"
+
+typedef struct hao_mesh {
+    uint32_t id; /**< nook_ao_mesh_view. */
+    uint32_t index_count;
+    nook_buffer vertices, indices; /**< id 0: it has no triangles. */
+    hao_box box;                   /**< Mesh space. */
+} hao_mesh;
+
+/** In the order of a pass's meshes: nook_ao_mesh_instance.mesh is an index here as well. All zero before there are any. */
+typedef struct hao_meshes {
+    hao_mesh *items; /**< Owned. */
+    uint32_t count;
+} hao_meshes;
+
+/**
+ * Copies what has come, drops what has gone; does nothing when it is all there.
+ * @return NOOK_E_MEMORY: then there are none
+ */
+nook_result hao_meshes_update(hao_meshes *meshes, const nook_ao_pass *pass);
+void hao_meshes_release(hao_meshes *meshes, nook_gpu *gpu);
