@@ -10,7 +10,7 @@ enum { SIDES_TRACED = 256, SIDES_DRAWN = 64, SIDES_DRAWN_INSIDE = 128, SIDES_VOX
 
 static uint32_t sides_for(double extent)
 {
-    return extent >= NOOK_VERIFY_INFINITE ? SIDES_TRACED : extent >= NOOK_VERIFY_VOLUME ? SIDES_VOXELS : SIDES_DRAWN;
+    return extent >= NOOK_VERIFY_INFINITE ? SIDES_TRACED : extent >= NOOK_VERIFY_VOXELS ? SIDES_VOXELS : SIDES_DRAWN;
 }
 
 void nook_verify_make_sphere_inside(uint32_t point, double extent, nook_verify_scene *scene)

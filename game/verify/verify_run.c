@@ -44,21 +44,20 @@ static nook_result measure_claims(const nook_verify_work *w, const nook_ao_techn
     return result;
 }
 
-/** All techniques that read triangles, or all that read volumes. */
-static nook_result measure_told(const nook_verify_work *w, uint32_t point, bool volumes)
+/** All techniques that meet the triangles themselves, or all that meet voxels of them. */
+static nook_result measure_told(const nook_verify_work *w, uint32_t point, bool voxels)
 {
     nook_verify_scene scene;
     nook_result result = NOOK_OK;
     bool made = false;
     for (size_t i = 0; result == NOOK_OK && i < w->desc->technique_count; i++) {
         const nook_ao_technique *technique = w->desc->techniques[i];
-        if (nook_verify_claim_for(technique).reads_picture ||
-            ((technique->inputs & NOOK_AO_IN_VOLUMES) != 0) != volumes)
+        if (nook_verify_claim_for(technique).reads_picture || !technique->exact != voxels)
             continue;
         if (!made) {
-            nook_verify_scene_make(w->fixture, point, volumes ? NOOK_VERIFY_VOLUME : NOOK_VERIFY_INFINITE, &scene);
+            nook_verify_scene_make(w->fixture, point, voxels ? NOOK_VERIFY_VOXELS : NOOK_VERIFY_INFINITE, &scene);
             made = true;
-            result = nook_verify_rig_set(w->rig, &scene, volumes);
+            result = nook_verify_rig_set(w->rig, &scene, voxels);
         }
         if (result == NOOK_OK)
             result = measure_claims(w, technique, &scene);

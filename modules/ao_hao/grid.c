@@ -161,13 +161,13 @@ nook_matrix hao_diagonal_axes(void)
     return m;
 }
 
-/* Voxels finer than this part of r_max show nothing more; and a scene may have no size at all. */
-static const double FINEST = 1.0 / 1024.0;
+/* Metres: a scene may have no size at all, and its inverse must be a float. */
+static const double FINEST = 1e-18;
 
 /* Of all sizes 2^(k/8) the smallest with which a length takes `resolution` voxels, wherever they begin. */
-static double voxel_size(double length, double r_max, uint32_t resolution)
+static double voxel_size(double length, uint32_t resolution)
 {
-    double least = fmax(length / (resolution - 2), r_max * FINEST);
+    double least = fmax(length / (resolution - 2), FINEST);
     return exp2(ceil(8.0 * log2(least)) / 8.0);
 }
 
@@ -188,7 +188,7 @@ void hao_grid_place(const hao_view *view, const hao_box *scene, uint32_t resolut
     double length = 0.0;
     for (int axis = 0; axis < 3; axis++)
         length = fmax(length, box.max[axis] - box.min[axis]);
-    double size = voxel_size(length, view->r_max, resolution);
+    double size = voxel_size(length, resolution);
     for (int axis = 0; axis < 3; axis++) {
         out_grid->first[axis] = floor(box.min[axis] / size);
         double count =

@@ -62,7 +62,7 @@ static nook_result prepare(hao_state *s, const hao_params *p, const nook_ao_pass
     if (result == NOOK_OK)
         result = hao_meshes_update(&s->meshes, pass);
     if (result == NOOK_OK)
-        result = hao_voxels_update(&s->voxels, pass, &s->meshes, (uint32_t)p->resolution,
+        result = hao_voxels_update(&s->voxels, pass, &s->meshes, (uint32_t)p->voxels,
                                    p->slicemaps == SLICEMAPS_THREE ? 3 : 1);
     return result;
 }

@@ -22,7 +22,7 @@ static ao_fixture *prepare(void **state, const char *maps, const char *r_max)
     ao_fixture_param(fixture, "ao.r_max", r_max);
     ao_fixture_param(fixture, "hao.rays", "256");
     ao_fixture_param(fixture, "hao.tests", "256");
-    ao_fixture_param(fixture, "hao.resolution", "128");
+    ao_fixture_param(fixture, "hao.voxels", "128");
     ao_fixture_param(fixture, "hao.slicemaps", maps);
     ao_fixture_param(fixture, "hao.spread", "1");
     ao_fixture_param(fixture, "hao.noise", "space");
@@ -86,7 +86,7 @@ static void test_an_open_floor_reads_nothing_at_any_tilt_and_place_in_the_voxels
         ao_fixture *fixture = prepare(state, slicemaps[maps], "0.4");
         ao_fixture_param(fixture, "hao.rays", "64");
         ao_fixture_param(fixture, "hao.tests", "64");
-        ao_fixture_param(fixture, "hao.resolution", "64");
+        ao_fixture_param(fixture, "hao.voxels", "64");
         fixture->view_angle = 0.6;
         for (int k = 0; k < 20; k++) {
             double n[3];
@@ -210,7 +210,7 @@ static void test_a_finer_grid_brings_a_thin_contact_nearer_to_the_truth(void **s
         char text[16];
         ao_fixture *fixture = prepare(state, "three", "1");
         snprintf(text, sizeof text, "%d", resolution);
-        ao_fixture_param(fixture, "hao.resolution", text);
+        ao_fixture_param(fixture, "hao.voxels", text);
         add_quad(fixture, (double[]){ -3, -3, 0 }, (double[]){ 6, 0, 0 }, (double[]){ 0, 6, 0 });
         add_quad(fixture, (double[]){ 0.1, -3, 0 }, (double[]){ 0, 6, 0 }, (double[]){ 0, 0, 3 });
         double error = fabs(measure(fixture) - truth);

@@ -29,7 +29,7 @@ static void build(nook_fixture_view *view, double roof_x)
     nook_ao_reset_params(view->ao);
     ao_view_param(view, "ao.r_max", "0.8");
     ao_view_param(view, "ao.filter", "none");
-    ao_view_param(view, "hao.resolution", "96");
+    ao_view_param(view, "hao.voxels", "96");
     ao_view_param(view, "hao.rays", "16");
     view->index = 0;
 }
@@ -122,12 +122,12 @@ static void test_the_same_frame_is_the_same_bits_whatever_was_recorded_between(v
     record(view, before);
     nook_matrix looked = view->view_from_world;
     ao_view_param(view, "hao.slicemaps", "three");
-    ao_view_param(view, "hao.resolution", "160");
+    ao_view_param(view, "hao.voxels", "160");
     view->view_from_world.m[12] += 0.3;
     record(view, other);
     view->view_from_world = looked;
     ao_view_param(view, "hao.slicemaps", "one");
-    ao_view_param(view, "hao.resolution", "96");
+    ao_view_param(view, "hao.voxels", "96");
     record(view, after);
     assert_true(same(before, after));
     assert_true(rms(before, other) > 0.01);
@@ -271,7 +271,7 @@ static void test_nothing_is_made_in_a_steady_state_though_bodies_and_views_move(
             made = 0;
         }
         nook_ao_set_param(view->ao, "hao.slicemaps", frame & 1);
-        nook_ao_set_param(view->ao, "hao.resolution", frame & 2 ? 64 : 160); /* two views that take turns */
+        nook_ao_set_param(view->ao, "hao.voxels", frame & 2 ? 64 : 160); /* two views that take turns */
         shift_roof(view, 0.1 * frame);
         view->view_from_world = looked;
         view->view_from_world.m[12] += 0.01 * frame;
@@ -348,7 +348,7 @@ static void test_a_grid_that_the_device_cannot_hold_is_one_clear_line_and_the_ne
     nook_log_capture log;
     picture out;
     build(view, -1.0);
-    ao_view_param(view, "hao.resolution", "500");
+    ao_view_param(view, "hao.voxels", "500");
     uint32_t most = view->gpu->max_texture_3d_size;
     view->gpu->max_texture_3d_size = 256;
     nook_result result = record_quietly(view, &log);

@@ -41,6 +41,9 @@ static int setup(void **state)
     ao_view_param(view, "volume.rays", "2");
     ao_view_param(view, "hsao.directions", "2");
     ao_view_param(view, "hsao.rays", "1");
+    ao_view_param(view, "hao.voxels", "48"); /* large enough for a few tests to meet */
+    ao_view_param(view, "hao.slicemaps", "three");
+    ao_view_param(view, "hao.rays", "8");
     *state = view;
     return 0;
 }
