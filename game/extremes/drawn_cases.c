@@ -123,7 +123,7 @@ static nook_result compare_nodes(const nook_extremes *extremes, bool pictures, n
         if (result != NOOK_OK)
             break;
         if (pictures)
-            nook_edge_pictures_compare(&usual.pictures, &far.pictures, nook_edge_rms, found, where);
+            nook_edge_pictures_compare_elsewhere(&usual.pictures, &far.pictures, found, where);
         else
             compare_buffers(&usual, &far, node_offsets[i], found);
         drawn_free(&far);
@@ -183,13 +183,13 @@ nook_result nook_space_run_far_vertices(const nook_extremes *extremes, nook_extr
     return result;
 }
 
-/** The largest RMS of the reference, or of the techniques that are not exact. */
+/** The largest RMS of the reference, or of the techniques that are not exact and do not hang in the world. */
 static double worst_picture(const drawn *a, const drawn *b, bool exact)
 {
     const size_t pixels = a->pictures.pixels;
     double worst = 0.0;
     for (size_t i = 0; i < a->pictures.count; i++) {
-        if (a->pictures.estimators[i].technique->exact == exact)
+        if (a->pictures.estimators[i].technique->exact == exact && !a->pictures.estimators[i].hangs)
             worst = fmax(
                 worst, nook_edge_rms(a->pictures.visibility + i * pixels, b->pictures.visibility + i * pixels, pixels));
     }
@@ -205,8 +205,7 @@ nook_result nook_space_run_far_vertices_pictures(const nook_extremes *extremes, 
     for (double offset = 1.0; offset <= held && result == NOOK_OK; offset *= 10.0) {
         result = draw_off(extremes, offset, true, true, out_found, &far);
         if (result == NOOK_OK)
-            nook_edge_pictures_compare(&usual.pictures, &far.pictures, nook_edge_rms, out_found,
-                                       "100 units off at most");
+            nook_edge_pictures_compare_elsewhere(&usual.pictures, &far.pictures, out_found, "100 units off at most");
         drawn_free(&far);
     }
     for (size_t i = 0; i < NOOK_COUNT(beyond) && result == NOOK_OK; i++) {

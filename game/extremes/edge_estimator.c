@@ -7,7 +7,7 @@
 
 static void add(nook_edge_estimator *out, const nook_ao_technique *technique, const char *kind, int length)
 {
-    *out = (nook_edge_estimator){ .technique = technique };
+    *out = (nook_edge_estimator){ .technique = technique, .hangs = strcmp(technique->name, "hao") == 0 };
     snprintf(out->name, sizeof out->name, "%s%s%.*s", technique->name, length ? "." : "", length, kind);
 }
 

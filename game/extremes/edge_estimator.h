@@ -1,6 +1,7 @@
 /** edge_estimator.h - what the extreme cases record: every technique, and one that marches volumes with every kind of them. */
 #pragma once
 #include "modules/ao/technique.h"
+#include <stdbool.h>
 
 enum { NOOK_EDGE_ESTIMATORS_MAX = 32, NOOK_EDGE_ESTIMATOR_NAME_MAX = 64 };
 
@@ -8,6 +9,7 @@ typedef struct nook_edge_estimator {
     const nook_ao_technique *technique;
     char name
         [NOOK_EDGE_ESTIMATOR_NAME_MAX]; /**< Of the technique; "volume.surfel" where the kind is not the initial one. */
+    bool hangs; /**< Its voxels hang in the world and not on bodies: a scene elsewhere is another sample of them. */
 } nook_edge_estimator;
 
 /** Those of the program, in the order of nook_techniques. @return how many */

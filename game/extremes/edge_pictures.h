@@ -14,12 +14,22 @@ nook_result nook_edge_pictures_take(nook_edge_scene *scene, nook_extreme_found *
                                     nook_edge_pictures *out_pictures);
 void nook_edge_pictures_free(nook_edge_pictures *pictures); /**< Zeroed is allowed. */
 
+/** RMS of visibility by which voxels that lie otherwise, and their noise, may change a picture. */
+#define NOOK_EDGE_HANGING 0.03
+
 /** A number that says how far two pictures are apart. */
 typedef double (*nook_edge_compare)(const float *a, const float *b, size_t count);
 
 /** Keeps the worst over all estimators of compare(a, b). */
 void nook_edge_pictures_compare(const nook_edge_pictures *a, const nook_edge_pictures *b, nook_edge_compare compare,
                                 nook_extreme_found *found, const char *where);
+
+/**
+ * RMS differences of a scene that was carried, turned or scaled. What hangs in the world may differ by NOOK_EDGE_HANGING; where it
+ * does, that is as bad as the bound of the case.
+ */
+void nook_edge_pictures_compare_elsewhere(const nook_edge_pictures *a, const nook_edge_pictures *b,
+                                          nook_extreme_found *found, const char *where);
 
 double nook_edge_rms(const float *a, const float *b, size_t count);       /**< RMS difference. */
 double nook_edge_bias(const float *a, const float *b, size_t count);      /**< Mean of a - b. */

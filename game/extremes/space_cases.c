@@ -23,14 +23,17 @@ static nook_result compare_scaled(const nook_extremes *extremes, const nook_edge
     snprintf(where, sizeof where, "scale %g by %s", scale, by_matrix ? "matrices" : "vertices");
     result = nook_edge_pictures_take(&scene, found, where, &pictures);
     if (result == NOOK_OK) {
-        nook_edge_pictures_compare(usual, &pictures, compare, found, where);
+        if (compare)
+            nook_edge_pictures_compare(usual, &pictures, compare, found, where);
+        else
+            nook_edge_pictures_compare_elsewhere(usual, &pictures, found, where);
         nook_edge_pictures_free(&pictures);
     }
     nook_edge_scene_free(&scene);
     return result;
 }
 
-/** All scales, by vertices and by matrices, against scale 1. */
+/** All scales, by vertices and by matrices, against scale 1. @param compare  NULL: as of a scene elsewhere */
 static nook_result compare_scales(const nook_extremes *extremes, const double *scales, size_t count,
                                   nook_edge_compare compare, nook_extreme_found *found)
 {
@@ -60,7 +63,7 @@ static nook_result run_decimal_scales(const nook_extremes *extremes, nook_extrem
 {
     const double all[] = { 1e-6, 1e6, 1e-4, 1e-2, 100.0, 1e4 };
     out_found->bound = 16.0 * 0x1p-24;
-    return compare_scales(extremes, all, extremes->quick ? 2 : NOOK_COUNT(all), nook_edge_rms, out_found);
+    return compare_scales(extremes, all, extremes->quick ? 2 : NOOK_COUNT(all), NULL, out_found);
 }
 
 /* ---- Turned: the G-buffer is carried along, as the renderer takes rigid cameras only ---- */
@@ -89,7 +92,7 @@ static nook_result compare_moved(const nook_extremes *extremes, const space_move
         result = nook_edge_pictures_take(&scene, found, name, i == 0 ? &usual : &pictures);
         nook_edge_scene_free(&scene);
         if (result == NOOK_OK && i > 0) {
-            nook_edge_pictures_compare(&usual, &pictures, nook_edge_rms, found, name);
+            nook_edge_pictures_compare_elsewhere(&usual, &pictures, found, name);
             nook_edge_pictures_free(&pictures);
         }
         nook_extreme_progress(extremes, (double)(i + 1) / (double)(count + 1));

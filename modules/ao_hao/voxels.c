@@ -1,5 +1,7 @@
 #include "engine/core/log.h"
+#include "engine/core/vector.h"
 #include "modules/ao_hao/voxels_internal.h"
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -75,12 +77,26 @@ static hao_box box_of_instance(const hao_view *view, const hao_meshes *meshes, c
     return hao_box_transform(&meshes->items[instance->mesh].box, &grid_from_mesh);
 }
 
+/* What covers less than a pixel with all its reach occludes nothing that is seen; far off it would make the grid vast for nothing. */
+static bool is_seen_to_occlude(const hao_box *box, const hao_view *view, const nook_ao_pass *pass)
+{
+    const double origin[3] = { 0 };
+    double eye[3], centre[3], half[3], footprint = 2.0 * fabs(view->ray_scale[1]) / pass->height;
+    nook_matrix_apply_point(&view->grid_from_view, origin, eye);
+    for (int axis = 0; axis < 3; axis++) {
+        centre[axis] = 0.5 * (box->min[axis] + box->max[axis]) - eye[axis];
+        half[axis] = 0.5 * (box->max[axis] - box->min[axis]);
+    }
+    return 2.0 * (nook_vector_length(half) + view->r_max) >= footprint * nook_vector_length(centre);
+}
+
 static hao_box box_of_scene(const hao_view *view, const hao_meshes *meshes, const nook_ao_pass *pass)
 {
     hao_box scene = hao_nothing;
     for (uint32_t i = 0; i < pass->instance_count; i++) {
         hao_box box = box_of_instance(view, meshes, &pass->instances[i]);
-        hao_box_add(&scene, &box);
+        if (is_seen_to_occlude(&box, view, pass))
+            hao_box_add(&scene, &box);
     }
     return scene;
 }
