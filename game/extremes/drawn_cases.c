@@ -123,7 +123,7 @@ static nook_result compare_nodes(const nook_extremes *extremes, bool pictures, n
         if (result != NOOK_OK)
             break;
         if (pictures)
-            nook_edge_pictures_compare_elsewhere(&usual.pictures, &far.pictures, found, where);
+            nook_edge_pictures_compare_elsewhere(&usual.pictures, &far.pictures, nook_edge_rms, found, where);
         else
             compare_buffers(&usual, &far, node_offsets[i], found);
         drawn_free(&far);
@@ -205,7 +205,8 @@ nook_result nook_space_run_far_vertices_pictures(const nook_extremes *extremes, 
     for (double offset = 1.0; offset <= held && result == NOOK_OK; offset *= 10.0) {
         result = draw_off(extremes, offset, true, true, out_found, &far);
         if (result == NOOK_OK)
-            nook_edge_pictures_compare_elsewhere(&usual.pictures, &far.pictures, out_found, "100 units off at most");
+            nook_edge_pictures_compare_elsewhere(&usual.pictures, &far.pictures, nook_edge_rms, out_found,
+                                                 "100 units off at most");
         drawn_free(&far);
     }
     for (size_t i = 0; i < NOOK_COUNT(beyond) && result == NOOK_OK; i++) {

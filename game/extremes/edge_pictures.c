@@ -41,16 +41,15 @@ void nook_edge_pictures_compare(const nook_edge_pictures *a, const nook_edge_pic
 }
 
 void nook_edge_pictures_compare_elsewhere(const nook_edge_pictures *a, const nook_edge_pictures *b,
-                                          nook_extreme_found *found, const char *where)
+                                          nook_edge_compare compare, nook_extreme_found *found, const char *where)
 {
     for (size_t i = 0; i < a->count; i++) {
         size_t first = i * a->pixels;
+        double measured = compare(a->visibility + first, b->visibility + first, a->pixels);
         double rms = nook_edge_rms(a->visibility + first, b->visibility + first, a->pixels);
-        if (a->estimators[i].hangs)
-            nook_extreme_worst(found, found->bound * rms / NOOK_EDGE_HANGING, "%s, %s: RMS %.4f of the %g that it may",
-                               a->estimators[i].name, where, rms, NOOK_EDGE_HANGING);
-        else
-            nook_extreme_worst(found, rms, "%s, %s", a->estimators[i].name, where);
+        if (a->estimators[i].hangs && rms <= NOOK_EDGE_HANGING)
+            measured = 0.0;
+        nook_extreme_worst(found, measured, "%s, %s", a->estimators[i].name, where);
     }
 }
 

@@ -24,12 +24,9 @@ typedef double (*nook_edge_compare)(const float *a, const float *b, size_t count
 void nook_edge_pictures_compare(const nook_edge_pictures *a, const nook_edge_pictures *b, nook_edge_compare compare,
                                 nook_extreme_found *found, const char *where);
 
-/**
- * RMS differences of a scene that was carried, turned or scaled. What hangs in the world may differ by NOOK_EDGE_HANGING; where it
- * does, that is as bad as the bound of the case.
- */
+/** The same of a scene that was carried, turned, scaled or joined: no more than NOOK_EDGE_HANGING is nothing for what hangs in the world. */
 void nook_edge_pictures_compare_elsewhere(const nook_edge_pictures *a, const nook_edge_pictures *b,
-                                          nook_extreme_found *found, const char *where);
+                                          nook_edge_compare compare, nook_extreme_found *found, const char *where);
 
 double nook_edge_rms(const float *a, const float *b, size_t count);       /**< RMS difference. */
 double nook_edge_bias(const float *a, const float *b, size_t count);      /**< Mean of a - b. */

@@ -26,7 +26,7 @@ static nook_result compare_scaled(const nook_extremes *extremes, const nook_edge
         if (compare)
             nook_edge_pictures_compare(usual, &pictures, compare, found, where);
         else
-            nook_edge_pictures_compare_elsewhere(usual, &pictures, found, where);
+            nook_edge_pictures_compare_elsewhere(usual, &pictures, nook_edge_rms, found, where);
         nook_edge_pictures_free(&pictures);
     }
     nook_edge_scene_free(&scene);
@@ -92,7 +92,7 @@ static nook_result compare_moved(const nook_extremes *extremes, const space_move
         result = nook_edge_pictures_take(&scene, found, name, i == 0 ? &usual : &pictures);
         nook_edge_scene_free(&scene);
         if (result == NOOK_OK && i > 0) {
-            nook_edge_pictures_compare_elsewhere(&usual, &pictures, found, name);
+            nook_edge_pictures_compare_elsewhere(&usual, &pictures, nook_edge_rms, found, name);
             nook_edge_pictures_free(&pictures);
         }
         nook_extreme_progress(extremes, (double)(i + 1) / (double)(count + 1));

@@ -141,10 +141,13 @@ static hao_box seen_part(const hao_view *view, const hao_box *box)
             hao_box_add_point(&seen, part.corners[i]);
     }
     bool holds_eye = true;
+    hao_box near = { { eye[0] - view->far, eye[1] - view->far, eye[2] - view->far },
+                     { eye[0] + view->far, eye[1] + view->far, eye[2] + view->far } };
     for (int axis = 0; axis < 3; axis++)
         holds_eye = holds_eye && eye[axis] >= box->min[axis] && eye[axis] <= box->max[axis];
     if (holds_eye)
         hao_box_add_point(&seen, eye);
+    hao_box_cut(&seen, &near);
     return seen;
 }
 

@@ -22,7 +22,7 @@ hao_box hao_box_transform(const hao_box *box, const nook_matrix *transform);
 typedef struct hao_view {
     nook_matrix grid_from_view; /**< Rigid. */
     double ray_scale[2], ray_offset[2];
-    double r_max;
+    double r_max, far; /**< Metres; nothing farther from the eye than `far` along an axis is looked at. */
 } hao_view;
 
 /** Cubic voxels, at whole multiples of their side from the world's origin. */

@@ -63,7 +63,7 @@ static nook_result prepare(hao_state *s, const hao_params *p, const nook_ao_pass
         result = hao_meshes_update(&s->meshes, pass);
     if (result == NOOK_OK)
         result = hao_voxels_update(&s->voxels, pass, &s->meshes, (uint32_t)p->voxels,
-                                   p->slicemaps == SLICEMAPS_THREE ? 3 : 1);
+                                   p->slicemaps == SLICEMAPS_THREE ? 3 : 1, (double)p->far * pass->r_max);
     return result;
 }
 

@@ -19,9 +19,9 @@ void hao_voxels_release(hao_voxels *voxels, nook_gpu *gpu)
 
 /* ---- is it what is wanted? ---- */
 
-static hao_view view_of(const nook_ao_pass *pass, uint32_t map_count)
+static hao_view view_of(const nook_ao_pass *pass, uint32_t map_count, double far)
 {
-    hao_view view = { .r_max = pass->r_max };
+    hao_view view = { .r_max = pass->r_max, .far = far };
     nook_matrix world_from_view, axes = map_count == 1 ? hao_diagonal_axes() : nook_matrix_identity();
     nook_matrix_inverse_affine(&pass->view_from_world, &world_from_view);
     view.grid_from_view = nook_matrix_multiply(&axes, &world_from_view);
@@ -34,7 +34,7 @@ static bool same_view(const hao_view *a, const hao_view *b)
 {
     return memcmp(&a->grid_from_view, &b->grid_from_view, sizeof a->grid_from_view) == 0 &&
            memcmp(a->ray_scale, b->ray_scale, sizeof a->ray_scale) == 0 &&
-           memcmp(a->ray_offset, b->ray_offset, sizeof a->ray_offset) == 0 && a->r_max == b->r_max;
+           memcmp(a->ray_offset, b->ray_offset, sizeof a->ray_offset) == 0 && a->r_max == b->r_max && a->far == b->far;
 }
 
 static bool is_made_of(const hao_voxels *voxels, const hao_source *source, const nook_ao_pass *pass)
@@ -153,9 +153,9 @@ static nook_result draw(const hao_voxels *voxels, const nook_ao_pass *pass, cons
 }
 
 nook_result hao_voxels_update(hao_voxels *voxels, const nook_ao_pass *pass, const hao_meshes *meshes,
-                              uint32_t resolution, uint32_t map_count)
+                              uint32_t resolution, uint32_t map_count, double far)
 {
-    hao_source source = { .view = view_of(pass, map_count),
+    hao_source source = { .view = view_of(pass, map_count, far),
                           .resolution = resolution,
                           .map_count = map_count,
                           .instance_count = pass->instance_count };

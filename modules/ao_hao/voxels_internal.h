@@ -32,8 +32,9 @@ typedef struct hao_voxels {
 
 /**
  * @param resolution  most voxels along a side @param map_count  1 or 3
+ * @param far  metres from the eye that it reaches at the most
  * @return NOOK_E_MEMORY, NOOK_E_DEVICE, NOOK_E_NOT_FOUND
  */
 nook_result hao_voxels_update(hao_voxels *voxels, const nook_ao_pass *pass, const hao_meshes *meshes,
-                              uint32_t resolution, uint32_t map_count);
+                              uint32_t resolution, uint32_t map_count, double far);
 void hao_voxels_release(hao_voxels *voxels, nook_gpu *gpu);

@@ -38,7 +38,8 @@ static hao_view random_view(void)
     return (hao_view){ .grid_from_view = nook_matrix_multiply(&axes, &world_from_view),
                        .ray_scale = { between(0.1, 1.5), between(-1.0, -0.1) },
                        .ray_offset = { between(-0.5, 0.5), between(-0.5, 0.5) },
-                       .r_max = between(0.1, 2.0) };
+                       .r_max = between(0.1, 2.0),
+                       .far = 100.0 };
 }
 
 static hao_box random_box(void)
@@ -125,7 +126,7 @@ static void test_a_point_of_the_world_keeps_its_place_in_the_voxels_while_the_ca
         const double eye[3] = { 0.02 * k, 0.5, 3 }, target[3] = { 0.02 * k, 0.3, 0 };
         nook_matrix view_from_world = nook_matrix_look_at(eye, target, up), world_from_view;
         assert_true(nook_matrix_inverse_affine(&view_from_world, &world_from_view));
-        hao_view view = { .grid_from_view = world_from_view, .ray_scale = { 0.8, 0.5 }, .r_max = 0.5 };
+        hao_view view = { .grid_from_view = world_from_view, .ray_scale = { 0.8, 0.5 }, .r_max = 0.5, .far = 100.0 };
         hao_grid grid;
         hao_grid_place(&view, &scene, RESOLUTION, &grid);
         double in_view[3], in_voxels[3];
@@ -149,7 +150,7 @@ static void test_nothing_in_reach_is_no_grid(void **state)
     const double eye[3] = { 0, 0, 0 }, target[3] = { 0, 0, -1 }, up[3] = { 0, 1, 0 };
     nook_matrix view_from_world = nook_matrix_look_at(eye, target, up), world_from_view;
     assert_true(nook_matrix_inverse_affine(&view_from_world, &world_from_view));
-    hao_view view = { .grid_from_view = world_from_view, .ray_scale = { 0.5, 0.5 }, .r_max = 1.0 };
+    hao_view view = { .grid_from_view = world_from_view, .ray_scale = { 0.5, 0.5 }, .r_max = 1.0, .far = 100.0 };
     const hao_box behind = { { -1, -1, 2.5 }, { 1, 1, 4 } }, beside_the_eye = { { -1, -1, 0.2 }, { 1, 1, 4 } };
     hao_grid grid;
     hao_grid_place(&view, &hao_nothing, RESOLUTION, &grid);
@@ -164,12 +165,24 @@ static void test_a_scene_without_size_has_voxels(void **state)
 {
     (void)state;
     const hao_box point = { { 0, 0, -2 }, { 0, 0, -2 } }, flat = { { -1, -1, -2 }, { 1, 1, -2 } };
-    hao_view view = { .grid_from_view = nook_matrix_identity(), .ray_scale = { 0.5, 0.5 }, .r_max = 1.0 };
+    hao_view view = { .grid_from_view = nook_matrix_identity(), .ray_scale = { 0.5, 0.5 }, .r_max = 1.0, .far = 100.0 };
     hao_grid grid;
     hao_grid_place(&view, &point, RESOLUTION, &grid);
     assert_true(grid.size[0] == 1 && grid.size[1] == 1 && grid.size[2] == 1 && grid.voxel_size > 0.0);
     hao_grid_place(&view, &flat, RESOLUTION, &grid);
     assert_true(grid.size[0] > RESOLUTION / 2 && grid.size[2] == 1);
+}
+
+static void test_a_sky_far_away_takes_no_more_than_the_reach_of_the_grid(void **state)
+{
+    (void)state;
+    const hao_box sky = { { -1e6, -1e6, -1e6 }, { 1e6, 1e6, 1e6 } };
+    hao_view view = { .grid_from_view = nook_matrix_identity(), .ray_scale = { 0.5, 0.5 }, .r_max = 1.0, .far = 10.0 };
+    hao_grid grid;
+    hao_grid_place(&view, &sky, RESOLUTION, &grid);
+    assert_true(grid.size[0] > 0);
+    for (int axis = 0; axis < 3; axis++)
+        assert_true(grid.box.min[axis] >= -11.0 && grid.box.max[axis] <= 11.0); /* r_max beyond what is looked at */
 }
 
 int main(void)
@@ -180,6 +193,7 @@ int main(void)
         cmocka_unit_test(test_a_point_of_the_world_keeps_its_place_in_the_voxels_while_the_camera_moves),
         cmocka_unit_test(test_nothing_in_reach_is_no_grid),
         cmocka_unit_test(test_a_scene_without_size_has_voxels),
+        cmocka_unit_test(test_a_sky_far_away_takes_no_more_than_the_reach_of_the_grid),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
