@@ -40,6 +40,17 @@ void nook_edge_pictures_compare(const nook_edge_pictures *a, const nook_edge_pic
     }
 }
 
+void nook_edge_pictures_compare_joined(const nook_edge_pictures *a, const nook_edge_pictures *b,
+                                       nook_edge_compare compare, nook_extreme_found *found, const char *where)
+{
+    for (size_t i = 0; i < a->count; i++) {
+        size_t first = i * a->pixels;
+        if (!a->estimators[i].hangs)
+            nook_extreme_worst(found, compare(a->visibility + first, b->visibility + first, a->pixels), "%s, %s",
+                               a->estimators[i].name, where);
+    }
+}
+
 void nook_edge_pictures_compare_elsewhere(const nook_edge_pictures *a, const nook_edge_pictures *b,
                                           nook_edge_compare compare, nook_extreme_found *found, const char *where)
 {

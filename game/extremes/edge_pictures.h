@@ -24,7 +24,10 @@ typedef double (*nook_edge_compare)(const float *a, const float *b, size_t count
 void nook_edge_pictures_compare(const nook_edge_pictures *a, const nook_edge_pictures *b, nook_edge_compare compare,
                                 nook_extreme_found *found, const char *where);
 
-/** The same of a scene that was carried, turned, scaled or joined: no more than NOOK_EDGE_HANGING is nothing for what hangs in the world. */
+/** The same, but for what hangs in the world, whose voxels are others as soon as a body is added: not a bit need stay. */
+void nook_edge_pictures_compare_joined(const nook_edge_pictures *a, const nook_edge_pictures *b,
+                                       nook_edge_compare compare, nook_extreme_found *found, const char *where);
+/** The same of a scene that was carried, turned or scaled: no more than NOOK_EDGE_HANGING is nothing for what hangs in the world. */
 void nook_edge_pictures_compare_elsewhere(const nook_edge_pictures *a, const nook_edge_pictures *b,
                                           nook_edge_compare compare, nook_extreme_found *found, const char *where);
 

@@ -176,7 +176,7 @@ static nook_result compare_with(nook_edge_scene *scene, const nook_edge_pictures
     scene->view->occluders[1] = scene->view->occluders[--scene->view->occluder_count];
     if (result != NOOK_OK)
         return result;
-    nook_edge_pictures_compare_elsewhere(without, &with, nook_edge_different, found, where);
+    nook_edge_pictures_compare_joined(without, &with, nook_edge_different, found, where);
     nook_edge_pictures_free(&with);
     return NOOK_OK;
 }
