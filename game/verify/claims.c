@@ -90,7 +90,8 @@ static const char ASKEW[] = "an open sheet askew in its voxels needs a lower thr
 
 static const char CLOSE_TESTS[] = "hao rays=256 tests=256 voxels=128 slicemaps=three noise=tile ao.filter=none";
 static const char CLOSER_TESTS[] = "hao rays=256 tests=256 voxels=80 slicemaps=three noise=tile ao.filter=none";
-static const char CLOSE[] = "a sheet askew marks as little as 0.58 of a layer of voxels: tests must be closer than that";
+static const char CLOSE[] =
+    "a sheet askew marks as little as 0.58 of a layer of voxels: tests must be closer than that";
 
 static const nook_verify_exception exceptions[] = {
     { "volume", "dihedral", "", ASKEW_SETTINGS, 0.0, ASKEW },

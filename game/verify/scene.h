@@ -44,9 +44,8 @@ typedef struct nook_verify_scene {
 
 /* How far what the closed form calls infinite reaches in a scene, metres. */
 #define NOOK_VERIFY_INFINITE 1e4 /**< What lies beyond has a solid angle under 1e-3. Truth: the infinite form. */
-#define NOOK_VERIFY_VOXELS \
-    3.0 /**< For voxels, which grow with what they cover. Truth: of the piece, exactly. */
-#define NOOK_VERIFY_PICTURE 2.0 /**< For cameras, which must see it all. The same. */
+#define NOOK_VERIFY_VOXELS 3.0   /**< For voxels, which grow with what they cover. Truth: of the piece, exactly. */
+#define NOOK_VERIFY_PICTURE 2.0  /**< For cameras, which must see it all. The same. */
 
 /** One row of docs/techniques.md, section Fixtures. */
 typedef struct nook_verify_fixture {

@@ -104,7 +104,7 @@ static void test_fetches_of_a_trace_hold_the_receiver_and_all_samples(void **sta
     ao_view_param(view, "gtao.steps", "5");
     expect(view, "gtao", PREPARE + RECEIVER + 3 * 2 * 5);
     expect(view, "hao", PREPARE + RECEIVER); /* without meshes no ray is followed */
-    expect(view, "volume", PREPARE); /* without occluders there is nothing to trace */
+    expect(view, "volume", PREPARE);         /* without occluders there is nothing to trace */
     expect(view, "probe", PREPARE);
     expect(view, "reference", 0.0); /* its work is on the CPU */
 }
