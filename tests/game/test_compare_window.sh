@@ -13,10 +13,11 @@ test_the_window_opens_after_the_comparison_and_escape_closes_it() {
 test_number_keys_choose_the_technique() {
     in_window '
         press 2; wait_for 30 title_has "2 ssao"
-        press 6; wait_for 30 title_has "6 reference"
+        press 6; wait_for 30 title_has "6 hao"
+        press 7; wait_for 30 title_has "7 reference"
         press 0; wait_for 30 title_has "0 none"
         press 9; press 3; wait_for 30 title_has "3 hsao"'
-    [ "$(grep -c 'view: technique' "$tmp/log")" -eq 5 ] # 9 is nobody
+    [ "$(grep -c 'view: technique' "$tmp/log")" -eq 6 ] # 9 is nobody
 }
 
 test_keys_choose_the_view_and_the_camera() {
