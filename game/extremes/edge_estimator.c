@@ -1,7 +1,6 @@
 #include "game/extremes/edge_estimator.h"
 #include "game/techniques.h"
 #include <assert.h>
-#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -9,12 +8,6 @@ static void add(nook_edge_estimator *out, const nook_ao_technique *technique, co
 {
     *out = (nook_edge_estimator){ .technique = technique, .hangs = strcmp(technique->name, "hao") == 0 };
     snprintf(out->name, sizeof out->name, "%s%s%.*s", technique->name, length ? "." : "", length, kind);
-}
-
-/* Densities and distances have not been held to the cases yet (docs/volume_kinds.md). */
-static bool is_held(const char *kind, size_t length)
-{
-    return strncmp(kind, "density", length) != 0 && strncmp(kind, "distance", length) != 0;
 }
 
 size_t nook_edge_estimators(nook_edge_estimator out[NOOK_EDGE_ESTIMATORS_MAX])
@@ -28,8 +21,6 @@ size_t nook_edge_estimators(nook_edge_estimator out[NOOK_EDGE_ESTIMATORS_MAX])
         add(&out[count++], all[i], "", 0);
         for (const char *name = kind ? strchr(kind->choices, '|') : NULL; name; name = strchr(name, '|')) {
             size_t length = strcspn(++name, "|");
-            if (!is_held(name, length))
-                continue;
             assert(count < NOOK_EDGE_ESTIMATORS_MAX);
             add(&out[count++], all[i], name, (int)length);
         }

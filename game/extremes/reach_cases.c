@@ -100,7 +100,8 @@ static nook_result run_nothing(const nook_extremes *extremes, nook_extreme_found
 
 static nook_result run_everything(const nook_extremes *extremes, nook_extreme_found *out_found)
 {
-    static const char *const techniques[] = { "volume", "volume.surfel", "reference" };
+    static const char *const techniques[] = { "volume", "volume.density", "volume.surfel", "volume.distance",
+                                              "reference" };
     nook_edge_scene scene;
     out_found->bound = 0.0;
     nook_result result = make_scene(extremes, 16, &scene);

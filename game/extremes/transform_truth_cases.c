@@ -127,7 +127,7 @@ static nook_result measure_grown(nook_fixture_view *view, const nook_matrix *mat
     return measure(view, "reference", found, out_mean);
 }
 
-static const char *const kinds[] = { "binary", "surfel" };
+static const char *const kinds[] = { "binary", "density", "surfel", "distance" };
 
 static nook_result compare_volume(nook_fixture_view *view, const nook_matrix *matrix, int index,
                                   nook_extreme_found *found)
