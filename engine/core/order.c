@@ -1,4 +1,5 @@
 #include "engine/core/order.h"
+#include <math.h>
 #include <stdlib.h>
 
 static int compare_numbers(const void *a, const void *b)
@@ -16,6 +17,22 @@ double nook_median(double *values, size_t count)
 {
     nook_order_numbers(values, count);
     return 0.5 * (values[(count - 1) / 2] + values[count / 2]);
+}
+
+static size_t nearest_rank(size_t count, double part)
+{
+    double rank = ceil(fmin(fmax(part, 0.0), 1.0) * (double)count);
+    return rank < 1.0 ? 0 : (size_t)rank - 1;
+}
+
+double nook_quantile(const double *ordered, size_t count, double part)
+{
+    return ordered[nearest_rank(count, part)];
+}
+
+float nook_quantile_floats(const float *ordered, size_t count, double part)
+{
+    return ordered[nearest_rank(count, part)];
 }
 
 /* Puts a value into the heap whose place at `hole` is free: no parent is below its children. */

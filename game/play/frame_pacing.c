@@ -1,6 +1,5 @@
 #include "engine/core/order.h"
 #include "game/play/play_window.h"
-#include <math.h>
 #include <string.h>
 
 void nook_frame_pacing_add(nook_frame_pacing *pacing, double ms)
@@ -18,6 +17,5 @@ double nook_frame_pacing_quantile(const nook_frame_pacing *pacing, double part)
         return 0.0;
     memcpy(sorted, pacing->ms, pacing->count * sizeof *sorted); /* until the ring is full it is filled from its start */
     nook_order_floats(sorted, pacing->count);
-    double rank = ceil(fmin(fmax(part, 0.0), 1.0) * pacing->count); /* nearest rank */
-    return (double)sorted[rank < 1.0 ? 0 : (uint32_t)rank - 1];
+    return (double)nook_quantile_floats(sorted, pacing->count, part);
 }

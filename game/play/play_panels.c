@@ -155,6 +155,16 @@ static void draw_preference(nook_play_window *window, nook_overlay *overlay, con
         nook_param_set(param, "preferences", &window->preferences, value);
 }
 
+/* A try is minutes of play: the first press asks, where it is not over. */
+static void draw_restart(nook_play_window *window, nook_overlay *overlay)
+{
+    if (!nook_overlay_button(overlay,
+                             window->restart_asked ? "Yes, from the start###restart" : "From the start###restart"))
+        return;
+    window->restart = window->restart_asked || window->controls.try_is_over;
+    window->restart_asked = !window->restart;
+}
+
 void nook_play_draw_menu(nook_play_window *window, nook_overlay *overlay)
 {
     double letter = nook_overlay_letter_height(overlay), width = menu_width;
@@ -173,8 +183,7 @@ void nook_play_draw_menu(nook_play_window *window, nook_overlay *overlay)
         if (nook_overlay_button(overlay, "Go on (Esc)"))
             window->paused = false;
         nook_overlay_same_line(overlay);
-        if (nook_overlay_button(overlay, "From the start"))
-            window->restart = true;
+        draw_restart(window, overlay);
         nook_overlay_same_line(overlay);
         if (nook_overlay_button(overlay, "Quit"))
             window->quit = true;

@@ -230,6 +230,8 @@ static void draw_panels(nook_play_window *w)
     nook_play_draw_hud(w, overlay);
     if (w->paused)
         nook_play_draw_menu(w, overlay);
+    else
+        w->restart_asked = false;
     nook_live_help help = nook_live_help_shown(w->live);
     if (help == NOOK_LIVE_HELP_HOST || help == NOOK_LIVE_HELP_BOTH)
         nook_play_draw_help(w, overlay);

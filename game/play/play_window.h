@@ -77,6 +77,7 @@ typedef struct nook_play_window {
     bool driven, has_window, paused, captured;
     bool quit;              /**< Asked for in the menu or by the window. */
     bool restart;           /**< Asked for in the menu: goes into the next tick. */
+    bool restart_asked;     /**< The menu asks whether it is meant. */
     uint32_t width, height; /**< Of the window, or of the picture where there is none. */
 } nook_play_window;
 

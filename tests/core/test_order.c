@@ -64,12 +64,27 @@ static void test_a_median_is_in_the_middle_or_between_the_two_there(void **state
     assert_true(four[0] == 1.0 && four[3] == 8.0);
 }
 
+static void test_quantiles_are_values_of_the_nearest_rank(void **state)
+{
+    (void)state;
+    const double numbers[] = { 1.0, 2.0, 3.0, 8.0 };
+    const float floats[] = { 1.0f, 2.0f, 3.0f, 8.0f };
+    const struct {
+        double part, value;
+    } known[] = { { 0.0, 1.0 }, { 0.25, 1.0 }, { 0.26, 2.0 }, { 0.5, 2.0 }, { 0.95, 8.0 }, { 1.0, 8.0 }, { 7.0, 8.0 } };
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+        assert_true(nook_quantile(numbers, 4, known[i].part) == known[i].value);
+        assert_true((double)nook_quantile_floats(floats, 4, known[i].part) == known[i].value);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_floats_and_numbers_of_any_count_are_ascending_and_the_same_ones),
         cmocka_unit_test(test_infinities_stand_at_the_ends),
         cmocka_unit_test(test_a_median_is_in_the_middle_or_between_the_two_there),
+        cmocka_unit_test(test_quantiles_are_values_of_the_nearest_rank),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -140,6 +140,18 @@ test_a_picture_of_what_stands_still_stands_still() {
 # Whether a process holds the end that SIGTERM asks for.
 holds_end() { (((0x$(awk '/^SigCgt/ { print $2 }' "/proc/$1/status") >> 14) & 1)); }
 
+test_a_bench_of_a_recorded_game_draws_its_frames_and_ends_with_it() {
+    local said
+    head -n 12 $house.replay >"$tmp/short.replay"
+    said=$("$NOOK_PROGRAM" bench play --backend osmesa --size 64x36 --from 1 --frames 5 --replay "$tmp/short.replay" 2>/dev/null)
+    [[ $said =~ \ all\ +5(\ +[0-9]+\.[0-9]+){5}\ +[0-9.]+\ %$ ]]
+    said=$("$NOOK_PROGRAM" bench play --backend osmesa --size 64x36 --from 9000 --replay "$tmp/short.replay" 2>&1 >/dev/null) &&
+        return 1
+    assert_holds "$said" "is over before the first frame"
+    said=$("$NOOK_PROGRAM" bench play --replay "$tmp/nothing.replay" 2>&1 >/dev/null) && return 1
+    assert_holds "$said" "$tmp/nothing.replay"
+}
+
 test_an_interrupted_game_writes_its_recording_and_says_how_far_it_came() {
     local id code=0 tries=600
     printf 'wait 1e9\n' >"$tmp/long.pilot"

@@ -56,6 +56,7 @@ test_the_game_and_benches_of_its_frames_ask_for_huge_pages_and_other_commands_do
         'int main(void) { const char *text = getenv("GLIBC_TUNABLES"); puts(text ? text : "none"); return 0; }' >game/main.c
     [ "$(./nook play)" = glibc.malloc.hugetlb=1 ]
     [ "$(./nook bench frame)" = glibc.malloc.hugetlb=1 ]
+    [ "$(./nook bench play)" = glibc.malloc.hugetlb=1 ]
     [ "$(./nook bench ecs)" = none ]
     [ "$(./nook)" = none ]
     [ "$(GLIBC_TUNABLES=glibc.malloc.hugetlb=0 ./nook play)" = glibc.malloc.hugetlb=1:glibc.malloc.hugetlb=0 ]
