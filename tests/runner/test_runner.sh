@@ -158,6 +158,41 @@ test_skipped_tests_are_counted_apart() {
     [ "$(tail -n 1 <<<"$said")" = '1 passed, 0 failed, 1 skipped' ]
 }
 
+# write_meeting SUBJECT OTHER: a test that passes when the other runs at the same time.
+write_meeting() {
+    printf '%s\n' 'cd "$NOOK_TEST_TMP/.."' 'echo "[==========] Running"' "touch met_$1" \
+        "for _ in {1..$meeting_looks}; do [ -e met_$2 ] && echo '[       OK ] met' && break; sleep 0.1; done" \
+        "[ -e met_$2 ] || echo '[  FAILED  ] met nobody'" "[ -z '$3' ] || sleep $3" 'echo "[==========] 1 run."' \
+        >"tests/core/test_$1.sh"
+}
+
+test_programs_run_at_once_and_are_reported_in_order() {
+    new_tree
+    meeting_looks=600
+    write_meeting a b 1
+    write_meeting b a ''
+    local said
+    said=$(./nook test --jobs 2 2>/dev/null)
+    [ "$(awk '{ print $1, $2 }' <<<"$said")" = $'ok tests/core/test_a.sh:\nok tests/core/test_b.sh:\n2 passed,' ]
+    meeting_looks=2
+    write_meeting a b ''
+    assert_holds "$(assert_fails 1 ./nook test --jobs 1)" '1 passed, 1 failed'
+    assert_holds "$(assert_fails 2 ./nook test --jobs 0)" '--jobs wants a number'
+    assert_holds "$(assert_fails 2 ./nook test --jobs)" '--jobs wants a number'
+}
+
+test_a_run_that_is_stopped_stops_its_programs() {
+    new_tree
+    printf '%s\n' 'echo $$ >"$NOOK_TEST_TMP/id"' 'for _ in {1..600}; do sleep 0.1; done' >tests/core/test_long.sh
+    ./nook test --jobs 2 >/dev/null 2>&1 &
+    local run=$! id=$tree/build/test_tmp/test_core_long/id code=0
+    for _ in {1..600}; do [ ! -s "$id" ] || break; sleep 0.1; done
+    kill $run
+    wait $run || code=$?
+    [ $code -eq 130 ]
+    not kill -0 "$(cat "$id")"
+}
+
 test_no_matching_test_is_a_failure() {
     new_tree
     write_test good 'assert_int_equal(answer(), 42)'
