@@ -2,7 +2,6 @@
 #include "engine/core/log.h"
 #include "game/animation.h"
 #include "game/draw_list.h"
-#include "game/live_volumes.h"
 #include "game/progress.h"
 #include "game/volumes.h"
 #include "modules/bake/brick_grid.h"
@@ -413,6 +412,11 @@ nook_result nook_game_world_voxelize(nook_game_world *world, nook_render_scene *
         return NOOK_OK;
     nook_render_scene_pose(scene, poses, version);
     return nook_live_volumes_voxelize(&world->live, world->ao, world->pose, version, scene, camera, aspect);
+}
+
+const nook_live_volumes *nook_game_world_live_volumes(const nook_game_world *world)
+{
+    return &world->live;
 }
 
 void nook_game_world_advance(nook_game_world *world, double seconds)

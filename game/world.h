@@ -7,6 +7,7 @@
 #include "engine/ecs/world.h"
 #include "engine/render/renderer.h"
 #include "game/components.h"
+#include "game/live_volumes.h"
 #include "modules/ao/nook_ao.h"
 #include "modules/bake/volume_file.h"
 #include <stdbool.h>
@@ -89,6 +90,8 @@ nook_result nook_game_world_renew(nook_game_world *world);
 /** Runs one frame's systems and submits the occluders they collected. @return NOOK_E_MEMORY, NOOK_E_ARG */
 nook_result nook_game_world_update(nook_game_world *world, nook_ao *ao);
 
+/** Of what bends by clips; count 0 where nothing does. */
+const nook_live_volumes *nook_game_world_live_volumes(const nook_game_world *world);
 /** Seconds that pass for what is animated with the next update; calls before it add up. Backwards below 0. */
 void nook_game_world_advance(nook_game_world *world, double seconds);
 /** Of the scene's deformables, and their version, as in nook_frame; NULL where nothing is animated. */

@@ -5,6 +5,7 @@
 #include <string.h>
 
 static const nook_command benches[] = {
+    { "character", "what meshes that bend cost in each frame: posed, voxelised", nook_bench_run_character },
     { "ecs", "create, change, walk and destroy entities", nook_bench_run_ecs },
     { "frame", "where the milliseconds of a frame go, with bodies that move", nook_bench_run_frame },
     { "occluders", "occlusion by 1 to 4096 volumes, apart and piled up, and by one that holds them all",

@@ -36,6 +36,7 @@ nook_result nook_bench_stage_open(const nook_bench_stage_options *options, const
     const nook_stage_desc desc = { .root = root,
                                    .scene_path = options->scene,
                                    .backend = options->backend,
+                                   .plays = options->plays,
                                    .width = (uint32_t)options->size.width,
                                    .height = (uint32_t)options->size.height };
     nook_settings_file settings;

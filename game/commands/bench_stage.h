@@ -8,6 +8,7 @@ typedef struct nook_bench_stage_options {
     const char *scene, *settings, *cache;
     nook_option_size size;
     nook_backend backend;
+    bool plays; /**< nook_stage_desc.plays; yours to set before it is opened. */
     char default_scene[NOOK_OPTION_PATH_MAX], default_cache[NOOK_OPTION_PATH_MAX];
 } nook_bench_stage_options;
 

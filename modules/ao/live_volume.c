@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SIDE = NOOK_AO_LIVE_SIDE_MAX, LOCATION_ORIGIN = 0, LOCATION_SIZE = 1, GROUP = 4 };
+enum { SIDE = NOOK_AO_LIVE_SIDE_MAX, LOCATION_ORIGIN = 0, LOCATION_SIZE = 1, GROUP = 8, RUN = 32 /* layers */ };
 
 _Static_assert((int)SIDE <= (int)NOOK_SLICEMAP_BITS, "shaders/ao/voxel_merge.comp.glsl reads one texel of a column");
 
@@ -112,7 +112,7 @@ static void merge_slices(nook_ao *ao, const atlas_entry *entry, nook_program pro
     nook_uniform_int(ao->gpu, LOCATION_ORIGIN, origin, 3);
     nook_uniform_int(ao->gpu, LOCATION_SIZE, size, 3);
     nook_dispatch(ao->gpu, program, nook_groups(info->width, GROUP), nook_groups(info->height, GROUP),
-                  nook_groups(info->depth, GROUP));
+                  nook_groups(info->depth, RUN));
 }
 
 nook_result nook_ao_voxelize(nook_ao *ao, nook_ao_volume volume, const nook_ao_live_mesh *mesh)

@@ -1,7 +1,8 @@
 #version 450
-// Three slicemaps, one seen along each axis, become voxels of the atlas: a voxel is full where any of the three has its bit.
+// Three slicemaps, one seen along each axis, become voxels of the atlas: a voxel is full where any of the three has its bit. An
+// invocation makes a run of 32 voxels along z, whose layers along x and y are bits of the same place in each texel.
 #include "ao/slicemap.glsl"
-layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
+layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 0, r8) uniform writeonly image3D atlas;
 layout(binding = 0) uniform usampler3D along_x; // pixels (y, z)
 layout(binding = 1) uniform usampler3D along_y; // pixels (x, z)
@@ -12,12 +13,17 @@ layout(location = 1) uniform ivec3 size;   // voxels
 
 void main()
 {
-    ivec3 voxel = ivec3(gl_GlobalInvocationID);
+    ivec3 voxel = ivec3(gl_GlobalInvocationID) * ivec3(1, 1, 32);
     if (any(greaterThanEqual(voxel, size)))
         return;
-    bool inside = all(greaterThan(voxel, ivec3(0))) && all(lessThan(voxel, size - 1)); // the outermost ones are empty
-    bool full = has_layer(texelFetch(along_x, ivec3(voxel.yz, 0), 0), voxel.x) ||
-                has_layer(texelFetch(along_y, ivec3(voxel.xz, 0), 0), voxel.y) ||
-                has_layer(texelFetch(along_z, ivec3(voxel.xy, 0), 0), voxel.z);
-    imageStore(atlas, origin + voxel, vec4(inside && full ? 1.0 : 0.0));
+    bool inside = all(greaterThan(voxel.xy, ivec2(0))) && all(lessThan(voxel.xy, size.xy - 1)); // the outermost ones are empty
+    uint run = layers_of(texelFetch(along_z, ivec3(voxel.xy, 0), 0), voxel.z);
+    int end = min(voxel.z + 32, size.z);
+    for (; voxel.z < end; voxel.z++) {
+        bool full = (run & 1u) != 0u || has_layer(texelFetch(along_x, ivec3(voxel.yz, 0), 0), voxel.x) ||
+                    has_layer(texelFetch(along_y, ivec3(voxel.xz, 0), 0), voxel.y);
+        run >>= 1;
+        full = full && inside && voxel.z > 0 && voxel.z < size.z - 1;
+        imageStore(atlas, origin + voxel, vec4(full ? 1.0 : 0.0));
+    }
 }

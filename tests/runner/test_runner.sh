@@ -193,6 +193,13 @@ test_a_run_that_is_stopped_stops_its_programs() {
     not kill -0 "$(cat "$id")"
 }
 
+test_two_tests_of_one_name_are_refused() {
+    new_tree
+    write_test answer 'assert_int_equal(answer(), 42);'
+    echo exit 1 >tests/core/test_answer.sh
+    assert_holds "$(assert_fails 1 ./nook test)" "tests/core/test_answer.c and tests/core/test_answer.sh have one name"
+}
+
 test_no_matching_test_is_a_failure() {
     new_tree
     write_test good 'assert_int_equal(answer(), 42)'
