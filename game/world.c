@@ -37,8 +37,9 @@ static void show_bake(void *user, const nook_scene_volume *done, uint32_t index,
 /* Parts of a room that share no volume would darken less then than they do. */
 bool nook_game_world_multiplies(const nook_ao *ao)
 {
-    double combine;
-    return nook_ao_get_param(ao, "volume.combine", &combine) != NOOK_OK || combine == 0.0;
+    double combine, path;
+    return nook_ao_get_param(ao, "volume.combine", &combine) != NOOK_OK || combine == 0.0 ||
+           nook_ao_get_param(ao, "volume.path", &path) != NOOK_OK || path != 0.0;
 }
 
 static nook_result bake(const nook_scene *scene, const nook_game_world_desc *desc, uint32_t kinds,

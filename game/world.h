@@ -59,7 +59,7 @@ nook_result nook_game_world_create(const nook_scene *scene, nook_game_world **ou
  */
 nook_result nook_game_world_bake(nook_game_world *world, nook_ao *ao, const nook_game_world_desc *desc,
                                  const struct nook_volumes_plan *plan);
-/** Whether the AO multiplies the visibilities of several volumes (volume.combine), as a plan must know. */
+/** Whether the AO multiplies the visibilities of several volumes (volume.combine, volume.path), as a plan must know. */
 bool nook_game_world_multiplies(const nook_ao *ao);
 /**
  * The same with volumes that were baked elsewhere, of the same scene; empties them. Takes as long as the uploads.

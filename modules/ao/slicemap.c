@@ -4,8 +4,6 @@
 
 enum { LOCATION_ROWS = 0 /* to 2 */, LOCATION_AXIS = 3, LOCATION_SIDE = 4 };
 
-static const GLenum switches[5] = { GL_DEPTH_TEST, GL_CULL_FACE, GL_SCISSOR_TEST, GL_BLEND, GL_STENCIL_TEST };
-
 nook_result nook_slicemap_fit(nook_slicemap *map, nook_gpu *gpu, uint32_t side)
 {
     assert(side >= 1 && side <= NOOK_SLICEMAP_SIDE_MAX);
@@ -59,12 +57,7 @@ void nook_slicing_begin(nook_gpu *gpu, uint32_t vertex_array, nook_slicing *out_
 {
     const nook_gl *gl = gpu->gl;
     nook_slicing slicing = { .gpu = gpu, .vertex_array = vertex_array };
-    gl->GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &slicing.framebuffer);
-    gl->GetIntegerv(GL_VIEWPORT, slicing.viewport);
-    for (int i = 0; i < 5; i++) {
-        slicing.enabled[i] = gl->IsEnabled(switches[i]);
-        gl->Disable(switches[i]);
-    }
+    nook_draw_state_take(gpu, &slicing.host);
     gl->Enable(GL_COLOR_LOGIC_OP);
     gl->LogicOp(GL_OR);
     gl->BindVertexArray(vertex_array);
@@ -107,13 +100,5 @@ void nook_slicing_draw(const nook_slicing *slicing, uint32_t first_index, uint32
 
 void nook_slicing_end(const nook_slicing *slicing)
 {
-    const nook_gl *gl = slicing->gpu->gl;
-    gl->Disable(GL_COLOR_LOGIC_OP);
-    gl->LogicOp(GL_COPY);
-    for (int i = 0; i < 5; i++)
-        if (slicing->enabled[i])
-            gl->Enable(switches[i]);
-    gl->BindVertexArray(0);
-    gl->BindFramebuffer(GL_FRAMEBUFFER, (GLuint)slicing->framebuffer);
-    gl->Viewport(slicing->viewport[0], slicing->viewport[1], slicing->viewport[2], slicing->viewport[3]);
+    nook_draw_state_give_back(slicing->gpu, &slicing->host);
 }

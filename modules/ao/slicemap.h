@@ -11,7 +11,7 @@
  * shaders/ao/slicemap.glsl reads what shaders/ao/voxel_slice.* write.
  */
 #pragma once
-#include "engine/gpu/gpu.h"
+#include "modules/ao/draw_state.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -45,8 +45,7 @@ nook_result nook_slicemap_shader_version(const nook_slicemap *map, nook_gpu *gpu
 typedef struct nook_slicing {
     nook_gpu *gpu;
     uint32_t vertex_array;
-    int32_t framebuffer, viewport[4];
-    uint8_t enabled[5];
+    nook_draw_state host;
 } nook_slicing;
 
 /** Indexed triangles on the GPU. */

@@ -1,5 +1,6 @@
 #include "modules/ao_volume/volume.h"
 #include "modules/ao/direction_texture.h"
+#include "modules/ao_volume/boxes.h"
 #include "modules/ao_volume/corners.h"
 #include "modules/ao_volume/cut_internal.h"
 #include "modules/bake/volume_file.h"
@@ -9,7 +10,7 @@
 #include "engine/core/param_block.inl"
 #include <stdio.h>
 
-enum { COMBINE_MULTIPLY = 0, SAMPLING_CORNERS = 1 };
+enum { COMBINE_MULTIPLY = 0, SAMPLING_CORNERS = 1, PATH_RASTER = 1 };
 enum {
     TILE_SIZE = 8,
     BINDING_DIRECTIONS = 4,
@@ -22,7 +23,7 @@ enum { LOCATION_PART = 0, LOCATION_OCCLUDERS = 1 };
 
 /**
  * Loop turns of a ray in a volume of surfels, densities or distances. At most: of surfels the inner loop's as many as a line crosses
- * voxels, the outer one's no more; densities one a voxel, distances two (MIN_STEP of distance.comp.glsl); and what sorting a list takes
+ * voxels, the outer one's no more; densities one a voxel, distances two (MIN_STEP of volume_distance.glsl); and what sorting a list takes
  * for it. Usually: counted in rooms and around single objects, where the longest through surfels took 77.
  */
 enum { TURNS_PER_VOXEL = 2, TURNS_OF_SORTING = 5, TURNS_USUALLY = 128 };
@@ -31,6 +32,7 @@ typedef struct volume_state {
     nook_direction_texture directions;
     nook_buffer again; /**< Groups x, y, z of dispatches that do the work again: x is 0 until loops were ended. */
     volume_corners corners;
+    volume_boxes boxes;
     nook_texture kept; /**< Of the trace's size, R32F or, of surfels, RGBA32F; id 0 until a cut needs it. */
 } volume_state;
 
@@ -47,6 +49,7 @@ static void destroy(void *state, nook_gpu *gpu)
     nook_buffer_destroy(gpu, &s->again);
     nook_texture_destroy(gpu, &s->kept);
     volume_corners_release(&s->corners, gpu);
+    volume_boxes_release(&s->boxes, gpu);
 }
 
 static uint32_t at_most(uint32_t highest, uint32_t value)
@@ -142,7 +145,7 @@ static uint32_t volume_kind(const void *params)
 static volume_task make_task(const volume_params *p, const nook_ao_pass *pass)
 {
     const volume_work work = { (uint32_t)p->rays, (uint32_t)p->steps, pass->occluder_count,
-                               p->combine == COMBINE_MULTIPLY };
+                               p->combine == COMBINE_MULTIPLY || p->path == PATH_RASTER };
     volume_task task = { .usual = work, .most = work, .kept_format = GL_R32F };
     if (p->kind != NOOK_VOLUME_BINARY) {
         task.most.steps = TURNS_PER_VOXEL * pass->line_max + TURNS_OF_SORTING;
@@ -152,15 +155,35 @@ static volume_task make_task(const volume_params *p, const nook_ao_pass *pass)
     return task;
 }
 
+/** As the papers draw it, cut so that it holds whatever meets what: what was blended cannot be done again. */
+static nook_result draw(volume_state *s, const nook_ao_pass *pass, const volume_task *task)
+{
+    volume_cut cut = volume_cut_careful(&task->most);
+    if (cut.rays < task->most.rays) {
+        nook_result result = bind_kept(s, pass, task->kept_format);
+        if (result != NOOK_OK)
+            return result;
+    }
+    nook_bind_texture(pass->gpu, BINDING_DIRECTIONS, s->directions.texture);
+    leave_open(pass);
+    return volume_boxes_draw(&s->boxes, pass, task->program, &task->most, &cut);
+}
+
 /** The shader of these parameters, with what it reads of the volumes bound. */
 static nook_result choose_program(volume_state *s, const volume_params *p, const nook_ao_pass *pass,
                                   nook_program *out_program)
 {
-    static const char *const shaders[NOOK_VOLUME_KINDS] = {
+    static const char *const computed[NOOK_VOLUME_KINDS] = {
         [NOOK_VOLUME_BINARY] = "shaders/ao/volume.comp.glsl",
         [NOOK_VOLUME_DENSITY] = "shaders/ao/density.comp.glsl",
         [NOOK_VOLUME_SURFEL] = "shaders/ao/surfel.comp.glsl",
         [NOOK_VOLUME_DISTANCE] = "shaders/ao/distance.comp.glsl",
+    };
+    static const char *const drawn[NOOK_VOLUME_KINDS] = {
+        [NOOK_VOLUME_BINARY] = "shaders/ao/volume.frag.glsl",
+        [NOOK_VOLUME_DENSITY] = "shaders/ao/density.frag.glsl",
+        [NOOK_VOLUME_SURFEL] = "shaders/ao/surfel.frag.glsl",
+        [NOOK_VOLUME_DISTANCE] = "shaders/ao/distance.frag.glsl",
     };
     char defines[64];
     int corners = p->kind == NOOK_VOLUME_BINARY && p->sampling == SAMPLING_CORNERS;
@@ -170,7 +193,9 @@ static nook_result choose_program(volume_state *s, const volume_params *p, const
     if (corners)
         nook_bind_texture(pass->gpu, BINDING_CORNERS, s->corners.texture);
     snprintf(defines, sizeof defines, "%s%s", corners ? "#define CORNERS\n" : "", nook_ao_pass_defines(pass));
-    return nook_program_compute(pass->gpu, shaders[p->kind], defines, out_program);
+    if (p->path == PATH_RASTER)
+        return nook_program_raster(pass->gpu, "shaders/ao/volume_box.vert.glsl", drawn[p->kind], defines, out_program);
+    return nook_program_compute(pass->gpu, computed[p->kind], defines, out_program);
 }
 
 static nook_result record(void *state, const void *params, const nook_ao_pass *pass)
@@ -185,7 +210,9 @@ static nook_result record(void *state, const void *params, const nook_ao_pass *p
     nook_result result = nook_direction_texture_fit(&s->directions, pass->gpu, task.most.rays, pass->seed);
     if (result == NOOK_OK)
         result = choose_program(s, p, pass, &task.program);
-    return result == NOOK_OK ? trace(s, pass, &task) : result;
+    if (result != NOOK_OK)
+        return result;
+    return p->path == PATH_RASTER ? draw(s, pass, &task) : trace(s, pass, &task);
 }
 
 const nook_ao_technique nook_ao_volume_technique = {
@@ -198,7 +225,7 @@ const nook_ao_technique nook_ao_volume_technique = {
     .param_count = NOOK_COUNT(param_table),
     .params_size = sizeof(volume_params),
     .state_size = sizeof(volume_state),
-    .state_version = 5,
+    .state_version = 6,
     .create = create,
     .destroy = destroy,
     .record = record,

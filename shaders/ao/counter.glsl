@@ -75,13 +75,13 @@ float bounded(float visibility)
 }
 
 #ifdef COUNTING
-// Only of pixels that are wanted. No two invocations of a dispatch share one. `share`: of each, in FETCH_UNITS.
+// Only of pixels that are wanted; boxes that are drawn over each other share some. `share`: of each, in FETCH_UNITS.
 void add_to_pixels(ivec2 first, int side, uint share)
 {
     ivec2 begin = max(first, frame.full_begin), end = min(first + side, frame.full_end);
     for (int y = begin.y; y < end.y; y++) {
         for (int x = begin.x; x < end.x; x++)
-            imageStore(fetch_image, ivec2(x, y), uvec4(imageLoad(fetch_image, ivec2(x, y)).r + share));
+            imageAtomicAdd(fetch_image, ivec2(x, y), share);
     }
 }
 

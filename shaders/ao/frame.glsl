@@ -26,6 +26,9 @@ layout(std140, binding = 0) uniform Frame {
     vec2 texel, full_texel;      // 1 / size, 1 / full_size
 } frame;
 
+#ifdef DRAWN // not computed: the fragment shader says which pixel it is
+ivec2 invocation_pixel();
+#else
 const int GROUP_HEIGHT = 8; // pixels, of every trace's work groups
 
 // Which row of groups a work group traces: every fourth one, then those after them, ... llvmpipe gives each of its threads one run of
@@ -48,6 +51,7 @@ ivec2 invocation_pixel()
     place.y += (group_row() - int(gl_WorkGroupID.y)) * GROUP_HEIGHT;
     return frame.origin + place;
 }
+#endif
 
 bool is_wanted(ivec2 pixel)
 {

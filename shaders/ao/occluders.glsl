@@ -46,11 +46,17 @@ vec3 normal_to_voxel(Occluder o, vec3 n)
     return vec3(dot(o.normal_from_view[0].xyz, n), dot(o.normal_from_view[1].xyz, n), dot(o.normal_from_view[2].xyz, n));
 }
 
+// Voxels along each axis within which a distance in metres ends, whatever its direction.
+vec3 reach_of(Occluder o, float distance)
+{
+    return distance * vec3(length(o.voxel_from_view[0].xyz), length(o.voxel_from_view[1].xyz),
+                           length(o.voxel_from_view[2].xyz));
+}
+
 // Is the point within r_max of the volume, axis by axis (the paper's extended box)?
 bool is_near(Occluder o, vec3 voxel)
 {
-    vec3 reach = frame.r_max * vec3(length(o.voxel_from_view[0].xyz), length(o.voxel_from_view[1].xyz),
-                                    length(o.voxel_from_view[2].xyz));
+    vec3 reach = reach_of(o, frame.r_max);
     return all(greaterThan(voxel, MARGIN - reach)) && all(lessThan(voxel, o.size.xyz - MARGIN + reach));
 }
 

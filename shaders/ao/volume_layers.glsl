@@ -3,11 +3,7 @@
 //   Passage walk_volume(Occluder o, Receiver r, vec3 d, float limit)   what the ray meets up to `limit` metres
 #include "ao/volume_pass.glsl"
 #include "ao/passage.glsl"
-
-float occlusion_along(Occluder o, Receiver r, vec3 d, float cosine, float jitter)
-{
-    return walk_volume(o, r, d, frame.r_max).occlusion;
-}
+#include "ao/tile_list.glsl"
 
 // Two volumes on one ray: each counts as one layer at the distance of its mean rho, and the nearer one is in front. Exact where one
 // is opaque, where rho is hard, and for one plane in each; the order of the two does not matter.

@@ -1,33 +1,24 @@
 #pragma once
-// main() of the technique "volume": see volume_pass.glsl.
-#include "ao/volume_pass.glsl"
+// main() of the technique "volume" with path = compute: see volume_pass.glsl. Beside the kind it takes
+//   float sum_union(float sum, bool inside, vec3 position, vec3 normal, ivec2 pixel)
+#include "ao/volume_factor.glsl"
+#include "ao/tile_list.glsl"
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(binding = 0, r32f) uniform image2D visibility_image;
+// Groups of the dispatches that do everything again, carefully: x stays 0 unless loops were ended.
+layout(std430, binding = 5) buffer Again {
+    uint groups_x, groups_y, groups_z;
+} again;
 
 // The paper's: product of the volumes' visibilities; darkens where volumes overlap, lights where they do not (C5). `visibility` is
-// that of earlier parts. A part that does not hold all rays holds one occluder only; the last of such parts has its factor.
+// that of earlier parts. A part that does not hold all rays holds one occluder only.
 float multiply_visibilities(float visibility, bool inside, vec3 position, vec3 normal, ivec2 pixel)
 {
-    vec3 tangent, bitangent;
-    tangent_frame(normal, tangent, bitangent);
-    int block = block_of(pixel);
-    float shift = noise(pixel, 1u);
+    Bundle bundle = bundle_of(pixel, position, normal);
     for (int chunk = part.z; chunk < part.w; chunk += CHUNK) {
         tile_list(chunk, part.w);
-        for (uint i = 0u; inside && i < tile_count; i++) {
-            Occluder o = occluder_at(tile_items[i]);
-            Receiver r = receive(o, position, normal);
-            if (!r.can_see)
-                continue;
-            float sum = part.x == 0 ? 0.0 : imageLoad(kept_image, pixel).r;
-            for (int j = part.x; j < part.y; j++) {
-                vec3 d = direction(j, params.rays, block, tangent, bitangent, normal);
-                float jitter = fract(shift + float(j) * 0.61803399);
-                sum += occlusion_along(o, r, d, dot(d, normal), jitter);
-            }
-            if (part.y < params.rays)
-                imageStore(kept_image, pixel, vec4(sum));
-            else
-                visibility *= 1.0 - sum / float(params.rays);
-        }
+        for (uint i = 0u; inside && i < tile_count; i++)
+            visibility *= visibility_past(occluder_at(tile_items[i]), bundle);
     }
     return visibility;
 }

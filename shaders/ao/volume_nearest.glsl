@@ -3,6 +3,7 @@
 //   float march(Occluder o, Receiver r, vec3 d, float cosine, float limit, float jitter)   metres to the first hit, or NO_HIT
 #include "ao/volume_pass.glsl"
 #include "ao/nearest_hit.glsl"
+#include "ao/tile_list.glsl"
 
 // Exact for any number of volumes: rho of the nearest hit, ray by ray. Uniform control flow. `sum` is that over the rays of earlier
 // parts; rays are added one by one, so that the cut does not show in the result. A part without the last occluder has one ray
@@ -39,9 +40,4 @@ float sum_union(float sum, bool inside, vec3 position, vec3 normal, ivec2 pixel)
             sum += part.w == occluder_count ? falloff(batch_get(nearest, j)) : 0.0;
     }
     return sum;
-}
-
-float occlusion_along(Occluder o, Receiver r, vec3 d, float cosine, float jitter)
-{
-    return falloff(march(o, r, d, cosine, frame.r_max, jitter));
 }

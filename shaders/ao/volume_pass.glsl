@@ -1,30 +1,24 @@
 #pragma once
-// What the shaders of the technique "volume" share, one for each kind of volume: what is bound, and which part of the work a dispatch
-// does. volume_main.glsl has their main(), which takes of the kind
+// What the shaders of the technique "volume" share, two for each kind of volume: what is bound, and which part of the work a dispatch or
+// a draw does. A kind, volume_KIND.glsl, has
 //   struct Receiver { ...; bool can_see; }                                a fragment as one occluder sees it
 //   Receiver receive(Occluder o, vec3 position, vec3 normal)
 //   float occlusion_along(Occluder o, Receiver r, vec3 d, float cosine, float jitter)
-//   float sum_union(float sum, bool inside, vec3 position, vec3 normal, ivec2 pixel)
-//   image2D kept_image                                                    what waits for the next dispatch; multiply: x is a sum
+//   image2D kept_image                                                    what waits for the next part; multiply: x is a sum
+// Their main() is in volume_main.glsl, which computes (path = compute), and in volume_box.glsl, which is drawn (path = raster: DRAWN).
 #include "ao/frame.glsl"
 #include "ao/falloff.glsl"
 #include "ao/counter.glsl"
 #include "ao/directions.glsl"
-#include "ao/tile_list.glsl"
+#include "ao/occluders.glsl"
 #include "nook/octahedral.glsl"
 #include "nook/params.glsl"
-layout(local_size_x = 8, local_size_y = 8) in;
 layout(std140, binding = 1) uniform Params {
 #include "modules/ao_volume/params.def"
 } params;
 layout(binding = 0) uniform sampler2D depth_texture;
 layout(binding = 1) uniform sampler2D normal_texture;
-layout(binding = 0, r32f) uniform image2D visibility_image;
-// Groups of the dispatches that do everything again, carefully: x stays 0 unless loops were ended.
-layout(std430, binding = 5) buffer Again {
-    uint groups_x, groups_y, groups_z;
-} again;
-// Rays x to y - 1 of occluders z to w - 1: this dispatch's part of the work, see modules/ao_volume/cut_internal.h.
+// Rays x to y - 1 of occluders z to w - 1: this part of the work, see modules/ao_volume/cut_internal.h.
 layout(location = 0) uniform ivec4 part;
 layout(location = 1) uniform int occluder_count; // of all parts
 

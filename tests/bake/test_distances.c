@@ -1,4 +1,4 @@
-/* Distances of voxel centres to triangles, and what the sphere tracing in shaders/ao/distance.comp.glsl relies on. */
+/* Distances of voxel centres to triangles, and what the sphere tracing in shaders/ao/volume_distance.glsl relies on. */
 #include "modules/bake/distance_bake.h"
 #include "tests/support/log_capture.h"
 #include "tests/support/voxel_shapes.h"
