@@ -8,6 +8,7 @@ static const nook_command benches[] = {
     { "character", "what meshes that bend cost in each frame: posed, voxelised", nook_bench_run_character },
     { "ecs", "create, change, walk and destroy entities", nook_bench_run_ecs },
     { "frame", "where the milliseconds of a frame go, with bodies that move", nook_bench_run_frame },
+    { "cost", "occlusion by the number of pixels, by its reach and by the size of the volumes", nook_bench_run_cost },
     { "occluders", "occlusion by 1 to 4096 volumes, apart and piled up, and by one that holds them all",
       nook_bench_run_occluders },
     { "reload", "how soon a saved shader is in the picture", nook_bench_run_reload },

@@ -1,8 +1,10 @@
 /* What occlusion costs by the number of occluders: boxes over a floor, apart from each other or all in one place, as volumes of their own
-   or as one that holds them all. Everything scales with the boxes, so that every row has as many voxels along a ray. */
+   or as one that holds them all; joined by union, by the product, and by the product of boxes that are drawn. Everything scales with the
+   boxes, so that every row has as many voxels along a ray. */
 #include "engine/core/clock.h"
 #include "engine/core/log.h"
 #include "engine/core/order.h"
+#include "game/commands/bench_ways.h"
 #include "game/commands/benches.h"
 #include "game/commands/findings.h"
 #include "game/option_rows.h"
@@ -13,7 +15,7 @@
 #include <math.h>
 #include <stdio.h>
 
-enum { FRAMES_MAX = 1000, COUNT_MAX = 4096, PILE_MAX = 64, VOXELS = 16 };
+enum { FRAMES_MAX = 1000, COUNT_MAX = 4096, VOXELS = 16 };
 /* In widths of a box's cell on the floor. */
 static const double half_side = 0.2, bottom = 0.05, top = 0.45, reach = 0.3;
 static const double fov_y = 0.8; /* radians: the camera looks straight down on all of the floor */
@@ -22,13 +24,15 @@ typedef struct occluders_options {
     const char *setting;
     nook_option_size size;
     nook_backend backend;
-    int32_t frames, most;
+    int32_t frames, most, pile;
     bool cpu;
 } occluders_options;
 
 typedef struct occluders_bench {
     const occluders_options *options;
     nook_setting setting;
+    const nook_bench_way *ways;
+    size_t way_count;
     nook_fixture_view *view;
     double ms[FRAMES_MAX];
 } occluders_bench;
@@ -112,13 +116,17 @@ static nook_result add_as_one(nook_fixture_view *view, uint32_t side)
 
 /* ---- timing ------------------------------------------------------------------------------------------------------ */
 
-/* The median; the first record writes what the others read. */
-static nook_result time_records(occluders_bench *b, double *out_ms)
+/* Median milliseconds of a record, of each way. */
+typedef struct way_times {
+    double ms[NOOK_BENCH_WAYS_MAX];
+} way_times;
+
+static nook_result time_way(occluders_bench *b, const nook_bench_way *way, double *out_ms)
 {
     double (*clock)(void) = b->options->cpu ? nook_clock_cpu_ms : nook_clock_ms;
     nook_fixture_view *view = b->view;
-    nook_result result = nook_fixture_view_record(view, b->setting.technique->name);
     const nook_ao_frame frame = nook_fixture_view_frame(view);
+    nook_result result = nook_bench_way_apply(view->ao, b->setting.technique, way);
     for (int32_t i = -1; i < b->options->frames && result == NOOK_OK; i++) {
         nook_gpu_finish(view->gpu);
         double start = clock();
@@ -131,17 +139,53 @@ static nook_result time_records(occluders_bench *b, double *out_ms)
     }
     nook_order_numbers(b->ms, (size_t)b->options->frames);
     *out_ms = b->ms[b->options->frames / 2];
-    nook_fixture_view_drop_occluders(view);
     return result;
+}
+
+/* The first record writes what the others read. */
+static nook_result time_records(occluders_bench *b, way_times *out)
+{
+    nook_result result = nook_fixture_view_record(b->view, b->setting.technique->name);
+    for (size_t way = 0; way < b->way_count && result == NOOK_OK; way++)
+        result = time_way(b, &b->ways[way], &out->ms[way]);
+    nook_fixture_view_drop_occluders(b->view);
+    return result;
+}
+
+/* ---- the tables -------------------------------------------------------------------------------------------------- */
+
+static void print_names(const occluders_bench *b, const char *before)
+{
+    char name[64];
+    for (size_t way = 0; way < b->way_count; way++) {
+        snprintf(name, sizeof name, "%s%s", before, b->ways[way].name);
+        printf(" %12s", name);
+    }
+}
+
+static void print_times(const occluders_bench *b, const way_times *times)
+{
+    for (size_t way = 0; way < b->way_count; way++)
+        printf(" %12.2f", times->ms[way]);
+}
+
+static void print_ratios(const occluders_bench *b, const way_times *times, const way_times *first)
+{
+    for (size_t way = 0; way < b->way_count; way++)
+        printf(" %12.2f", times->ms[way] / first->ms[way]);
 }
 
 static nook_result time_apart(occluders_bench *b, const nook_fixture_mesh *box)
 {
-    double first = 0.0;
+    way_times first = { { 0 } };
     nook_result result = NOOK_OK;
-    printf("apart\n  %9s %10s %10s %12s %12s\n", "occluders", "ms", "to 1", "one volume", "each to one");
+    printf("apart: milliseconds, times those of one, and of one volume that holds all\n  %9s", "occluders");
+    print_names(b, "");
+    print_names(b, "x ");
+    print_names(b, "one: ");
+    printf("\n");
     for (uint32_t side = 1; side * side <= (uint32_t)b->options->most && result == NOOK_OK; side *= 2) {
-        double each = 0.0, one = 0.0;
+        way_times each = { { 0 } }, one = { { 0 } };
         draw(b->view, side, box);
         result = add_each(b->view, side, 0, box);
         if (result == NOOK_OK)
@@ -151,8 +195,13 @@ static nook_result time_apart(occluders_bench *b, const nook_fixture_mesh *box)
         if (result == NOOK_OK)
             result = time_records(b, &one);
         first = side == 1 ? each : first;
-        if (result == NOOK_OK)
-            printf("  %9u %10.2f %10.2f %12.2f %12.2f\n", side * side, each, each / first, one, each / one);
+        if (result != NOOK_OK)
+            break;
+        printf("  %9u", side * side);
+        print_times(b, &each);
+        print_ratios(b, &each, &first);
+        print_times(b, &one);
+        printf("\n");
         fflush(stdout);
     }
     return result;
@@ -160,19 +209,25 @@ static nook_result time_apart(occluders_bench *b, const nook_fixture_mesh *box)
 
 static nook_result time_piled(occluders_bench *b, const nook_fixture_mesh *box)
 {
-    double first = 0.0;
+    way_times first = { { 0 } };
     nook_result result = NOOK_OK;
     draw(b->view, 1, box);
-    printf("piled up in one place\n  %9s %10s %10s\n", "occluders", "ms", "to 1");
-    for (uint32_t count = 1; count <= PILE_MAX && count <= (uint32_t)b->options->most && result == NOOK_OK;
-         count *= 2) {
-        double ms = 0.0;
+    printf("piled up in one place\n  %9s", "occluders");
+    print_names(b, "");
+    print_names(b, "x ");
+    printf("\n");
+    for (uint32_t count = 1; count <= (uint32_t)b->options->pile && result == NOOK_OK; count *= 2) {
+        way_times times = { { 0 } };
         result = add_each(b->view, 1, count, box);
         if (result == NOOK_OK)
-            result = time_records(b, &ms);
-        first = count == 1 ? ms : first;
-        if (result == NOOK_OK)
-            printf("  %9u %10.2f %10.2f\n", count, ms, ms / first);
+            result = time_records(b, &times);
+        first = count == 1 ? times : first;
+        if (result != NOOK_OK)
+            break;
+        printf("  %9u", count);
+        print_times(b, &times);
+        print_ratios(b, &times, &first);
+        printf("\n");
         fflush(stdout);
     }
     return result;
@@ -216,10 +271,11 @@ static nook_result run(void *user, nook_gpu *gpu, bool *out_hold)
 
 static bool read_options(int argc, char **argv, occluders_options *out, int *out_exit_code)
 {
-    *out = (occluders_options){ .setting = "volume", .size = { 512, 512 }, .frames = 9, .most = COUNT_MAX };
+    *out = (occluders_options){ .setting = "volume", .size = { 512, 512 }, .frames = 9, .most = COUNT_MAX, .pile = 64 };
     const nook_option options[] = {
         nook_option_row_size(&out->size, "of the picture in pixels; default 512x512"),
-        nook_option_row_int("most", &out->most, 1, COUNT_MAX, "occluders; default 4096"),
+        nook_option_row_int("most", &out->most, 1, COUNT_MAX, "occluders apart; default 4096"),
+        nook_option_row_int("pile", &out->pile, 1, COUNT_MAX, "occluders piled up; default 64"),
         nook_option_row_int("frames", &out->frames, 1, FRAMES_MAX, "timed of each row; default 9"),
         nook_option_row_flag(
             "cpu", &out->cpu,
@@ -237,7 +293,9 @@ static bool read_options(int argc, char **argv, occluders_options *out, int *out
             "SETTING: a technique and parameters in one argument, default \"volume\"; as \"volume kind=surfel "
             "rays=4\".\n"
             "apart: boxes over a floor, each in reach of its own surroundings, as volumes of their own and as one\n"
-            "volume of them all, with voxels of the same size as far as 512 go; piled up: all in one place.\n"
+            "volume of them all, with voxels of the same size as far as 512 go; piled up: all in one place. Of\n"
+            "\"volume\": union: exact, ray by ray; product: of visibilities; raster: the same, each box drawn and\n"
+            "blended (volume.combine, volume.path).\n"
     };
     nook_arguments arguments;
     if (!nook_arguments_read(&usage, argc, argv, &arguments, out_exit_code))
@@ -256,5 +314,6 @@ int nook_bench_run_occluders(const nook_app *app, int argc, char **argv)
     occluders_bench bench = { .options = &options };
     if (nook_setting_parse("bench occluders", options.setting, &bench.setting) != NOOK_OK)
         return NOOK_EXIT_USAGE;
+    bench.way_count = nook_bench_ways(bench.setting.technique, &bench.ways);
     return nook_findings_with_device(app, options.backend, NULL, run, &bench);
 }

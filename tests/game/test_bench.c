@@ -89,14 +89,35 @@ static void test_bench_times_few_occluders_and_refuses_settings_that_there_are_n
     char *arguments[] = { "bench",     "occluders", "volume kind=surfel rays=1",
                           "--most",    "4",         "--frames",
                           "1",         "--size",    "16x16",
-                          "--backend", "osmesa",    NULL };
-    assert_int_equal(nook_command_bench(&app, 11, arguments), NOOK_EXIT_OK);
+                          "--backend", "osmesa",    "--pile",
+                          "4",         NULL };
+    assert_int_equal(nook_command_bench(&app, 13, arguments), NOOK_EXIT_OK);
     nook_log_capture log;
     nook_log_capture_begin(&log);
     assert_int_equal(nook_command_bench(&app, 3, (char *[]){ "bench", "occluders", "volume ray=1", NULL }),
                      NOOK_EXIT_USAGE);
     nook_log_capture_end();
     assert_non_null(strstr(log.text, "rays"));
+}
+
+static void test_bench_times_what_pixels_reach_and_voxels_cost(void **state)
+{
+    (void)state;
+    char cache[512], scene[512];
+    const nook_app app = { .root = test_gpu_root() };
+    snprintf(scene, sizeof scene, "%s/tests/game/data/crate.gltf", app.root);
+    nook_scratch_path(cache, sizeof cache, "cache");
+    char *arguments[] = { "bench", "cost",      scene,    "--frames", "1",   "--size",
+                          "24x16", "--backend", "osmesa", "--cache",  cache, NULL };
+    assert_int_equal(nook_command_bench(&app, 11, arguments), NOOK_EXIT_OK);
+    arguments[4] = "0";
+    assert_int_equal(nook_command_bench(&app, 11, arguments), NOOK_EXIT_USAGE);
+    arguments[4] = "1", arguments[2] = "no_such.glb";
+    nook_log_capture log;
+    nook_log_capture_begin(&log);
+    assert_int_equal(nook_command_bench(&app, 11, arguments), NOOK_EXIT_FAILED);
+    nook_log_capture_end();
+    assert_non_null(strstr(log.text, "no_such.glb"));
 }
 
 int main(void)
@@ -106,6 +127,7 @@ int main(void)
         cmocka_unit_test(test_bench_refuses_what_it_cannot_time),
         cmocka_unit_test(test_bench_reload_sees_every_file_it_saves),
         cmocka_unit_test(test_bench_times_the_physics_of_a_level),
+        cmocka_unit_test(test_bench_times_what_pixels_reach_and_voxels_cost),
         cmocka_unit_test(test_bench_times_few_occluders_and_refuses_settings_that_there_are_not),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
