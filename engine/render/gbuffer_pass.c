@@ -22,7 +22,7 @@ static nook_program choose_program(nook_renderer *renderer, const void *user, co
     const gbuffer_round *round = user;
     const nook_frame *frame = round->frame;
     uint32_t kind = (masked ? GBUFFER_MASKED : 0u) | (frame->quick ? GBUFFER_QUICK : 0u) |
-                    (frame->scene->has_tangents ? 0u : GBUFFER_NO_TANGENTS) |
+                    (frame->scene->has_tangents && !frame->quick ? 0u : GBUFFER_NO_TANGENTS) |
                     (frame->quick && !frame->scene->has_colours ? GBUFFER_NO_COLOURS : 0u);
     nook_program *program = &renderer->gbuffer_programs[kind][material->image_set];
     if (material->emits != round->emits)

@@ -76,7 +76,8 @@ typedef struct nook_frame {
     const nook_lights *lights;
     bool
         quick; /**< For play, not for measuring: material images in the sharper of two mip levels, not anisotropic, filtered and
-                     multiplied as sRGB stores colours, and the triangles' normals from the positions of neighbouring pixels, right to about 1e-4. */
+                     multiplied as sRGB stores colours, and the triangles' normals from the positions of neighbouring pixels, right to about 1e-4;
+                     so too the tangents of normal images, which leaves out those of the vertices. */
     bool
         cull_back_faces; /**< true: single-sided materials are not seen from behind, as glTF has it. false: every surface
                                is seen from both sides, as rays, volumes and shadows see it. */

@@ -17,6 +17,15 @@ vec2 nook_octahedral_encode(vec3 n)
     return (v * 32767.0 + 32768.0) / 65535.0;
 }
 
+// The same of a vector of any length, to the last digit or so, with one division.
+vec2 nook_octahedral_encode_any(vec3 n)
+{
+    const float ONE = 32767.0 / 65535.0;
+    vec2 v = n.xy * (ONE / max(abs(n.x) + abs(n.y) + abs(n.z), 1e-30));
+    vec2 wrapped = (ONE - abs(v.yx)) * vec2(v.x >= 0.0 ? 1.0 : -1.0, v.y >= 0.0 ? 1.0 : -1.0);
+    return (n.z >= 0.0 ? v : wrapped) + 32768.0 / 65535.0;
+}
+
 // What an RG16 texture returns, unfiltered, to a unit vector.
 vec3 nook_octahedral_decode(vec2 t)
 {

@@ -1,12 +1,17 @@
 // A surface point as the fragment shaders of geometry passes see it: material and both normals.
 // Bindings: those of material.glsl, storage 2 triangle normals. Defines: IMAGES of material.glsl; NO_TANGENTS, the vertices have
-// none; NO_COLOURS, their colours are white; QUICK, the triangle's normal is that of the neighbouring pixels' positions: right to about 1e-4 instead of exact; ENCODED of material.glsl, the base colour is sRGB.
+// none; NO_COLOURS, their colours are white; QUICK, with NO_TANGENTS, normals are those of surface_quick.glsl; ENCODED of material.glsl,
+// the base colour is sRGB.
 #pragma once
 #include "render/frame.glsl"
 #include "render/material.glsl"
 #include "render/tone.glsl"
 
+#ifdef QUICK
+layout(location = 0) in vec3 surface_position_relative;
+#else
 layout(location = 0) in vec3 surface_position_view;
+#endif
 layout(location = 1) in vec3 surface_normal_world;
 #ifndef NO_TANGENTS
 layout(location = 2) in vec4 surface_tangent_world;
@@ -28,8 +33,8 @@ layout(std430, binding = 2) readonly buffer TriangleNormals { float triangle_nor
 struct Surface {
     vec3 base_colour;
     float alpha;
-    vec3 normal;           // unit, world, on the viewer's side of the triangle
-    vec3 geometric_normal; // unit, world, faces the viewer
+    vec3 normal;           // world, on the viewer's side of the triangle; unit, but for QUICK
+    vec3 geometric_normal; // world, faces the viewer; likewise
     float metallic;
     float roughness;
     float occlusion;
@@ -38,10 +43,7 @@ struct Surface {
 };
 
 #ifdef QUICK
-vec3 triangle_normal(vec3 relative)
-{
-    return cross(dFdx(relative), dFdy(relative));
-}
+#include "render/surface_quick.glsl"
 #else
 // The id may or may not start again with each instance; the remainder is right either way.
 vec3 triangle_normal(vec3 relative)
@@ -51,7 +53,6 @@ vec3 triangle_normal(vec3 relative)
                             triangle_normals[triangle * 3u + 2u]);
     return surface_world_normal_from_mesh * normal_mesh;
 }
-#endif
 
 // The triangle's own plane.
 vec3 geometric_normal(vec3 relative)
@@ -98,15 +99,21 @@ vec3 shading_normal(vec3 geometric, vec3 relative)
     return normal * side;
 }
 
-Surface surface_read()
+void surface_normals(out vec3 shading, out vec3 geometric)
 {
     vec3 relative = mat3(frame.world_from_view) * surface_position_view;
+    geometric = geometric_normal(relative);
+    shading = shading_normal(geometric, relative);
+}
+#endif
+
+Surface surface_read()
+{
     Surface s;
     vec4 base_colour = material_base_colour(surface_uv, surface_colour);
     s.base_colour = base_colour.rgb;
     s.alpha = base_colour.a;
-    s.geometric_normal = geometric_normal(relative);
-    s.normal = shading_normal(s.geometric_normal, relative);
+    surface_normals(s.normal, s.geometric_normal);
     s.metallic = drawn.metallic;
     s.roughness = drawn.roughness;
     if (has_image(MATERIAL_METALLIC_ROUGHNESS_IMAGE)) {

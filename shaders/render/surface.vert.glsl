@@ -16,7 +16,11 @@ layout(location = 9) in vec4 world_normal_from_mesh_0; // w: -1 when the transfo
 layout(location = 10) in vec4 world_normal_from_mesh_1;
 layout(location = 11) in vec4 world_normal_from_mesh_2;
 
+#ifdef QUICK
+layout(location = 0) out vec3 surface_position_relative;
+#else
 layout(location = 0) out vec3 surface_position_view;
+#endif
 layout(location = 1) out vec3 surface_normal_world;
 #ifndef NO_TANGENTS
 layout(location = 2) out vec4 surface_tangent_world;
@@ -34,7 +38,11 @@ void main()
     mat3 world_normal_from_mesh =
         mat3(world_normal_from_mesh_0.xyz, world_normal_from_mesh_1.xyz, world_normal_from_mesh_2.xyz);
     vec4 position_view = view_from_mesh * vec4(position, 1.0);
+#ifdef QUICK
+    surface_position_relative = mat3(frame.world_from_view) * position_view.xyz;
+#else
     surface_position_view = position_view.xyz;
+#endif
     surface_normal_world = world_normal_from_mesh * normal;
 #ifndef NO_TANGENTS
     surface_tangent_world.xyz = mat3(frame.world_from_view) * (mat3(view_from_mesh) * tangent.xyz);

@@ -96,10 +96,17 @@ static float next_number(uint32_t *seed)
     return (float)(*seed >> 8) / 8388608.0f - 1.0f;
 }
 
-/** Planes at all angles, edge-on ones and slivers among them, through each other and behind the eye. */
-static void make_shards(void **state, test_scene *scene, test_picture *picture, uint32_t seed)
+/**
+ * Planes at all angles, edge-on ones and slivers among them, through each other and behind the eye.
+ * @param texel  of their normal image; NULL: they have none
+ */
+static void make_shards(void **state, test_scene *scene, test_picture *picture, uint32_t seed, const uint8_t *texel)
 {
     test_scene_init(scene);
+    if (texel) {
+        scene->images[0] = (nook_image){ .width = 1, .height = 1, .pixels = (uint8_t *)(uintptr_t)texel };
+        scene->scene.image_count = 1;
+    }
     for (uint32_t i = 0; i < TEST_SCENE_MESHES; i++) {
         float corner[3], u[3], v[3];
         const float wide = i % 4 == 3 ? 0.02f : 3.0f;
@@ -108,7 +115,8 @@ static void make_shards(void **state, test_scene *scene, test_picture *picture, 
             u[axis] = 3.0f * next_number(&seed);
             v[axis] = wide * next_number(&seed);
         }
-        test_scene_add_quad(scene, corner, u, v);
+        uint32_t shard = test_scene_add_quad(scene, corner, u, v);
+        scene->materials[shard].normal_image = texel ? 0 : NOOK_NONE;
     }
     test_picture_create(picture, test_gpu_of(state), scene, SIZE, SIZE);
 }
@@ -122,7 +130,7 @@ static void test_quick_normals_of_edge_on_planes_and_slivers_are_those_of_the_ex
     for (uint32_t seed = 1; seed <= 40; seed++) {
         test_scene scene;
         test_picture picture;
-        make_shards(state, &scene, &picture, seed);
+        make_shards(state, &scene, &picture, seed, NULL);
         nook_gbuffer g = nook_renderer_gbuffer(picture.renderer);
         for (int quick = 0; quick < 2; quick++) {
             picture.frame.quick = quick;
@@ -140,6 +148,35 @@ static void test_quick_normals_of_edge_on_planes_and_slivers_are_those_of_the_ex
         test_picture_destroy(&picture);
     }
     assert_true(seen > 40 * SIZE * SIZE / 2);
+}
+
+/* Seen from both sides and all angles; the lean of one texel is the same for every filter. */
+static void test_quick_normals_lean_as_their_image_says_as_those_of_the_exact_frame(void **state)
+{
+    static const uint8_t leaning[4] = { 204, 178, 230, 255 };
+    double normals[SIZE * SIZE][3];
+    uint32_t seen = 0;
+    for (uint32_t seed = 1; seed <= 20; seed++) {
+        test_scene scene;
+        test_picture picture;
+        make_shards(state, &scene, &picture, seed, leaning);
+        nook_gbuffer g = nook_renderer_gbuffer(picture.renderer);
+        for (int quick = 0; quick < 2; quick++) {
+            picture.frame.quick = quick;
+            test_picture_render(&picture, NOOK_VIEW_LIT);
+            for (uint32_t i = 0; i < SIZE * SIZE; i++) {
+                double normal[3];
+                test_picture_normal(&picture, g.normal, i % SIZE, i / SIZE, quick ? normal : normals[i]);
+                bool drawn = test_picture_depth(&picture, i % SIZE, i / SIZE) > 0.0f;
+                seen += drawn;
+                if (quick && drawn && !(angle_between(normal, normals[i]) < 0.01))
+                    fail_msg("seed %u, pixel %u, %u: off by %.2g", seed, i % SIZE, i / SIZE,
+                             angle_between(normal, normals[i]));
+            }
+        }
+        test_picture_destroy(&picture);
+    }
+    assert_true(seen > 20 * SIZE * SIZE / 2);
 }
 
 /** A facing quad whose colours are products of all that a material can have. @param white  its vertices are */
@@ -233,6 +270,7 @@ int main(void)
         cmocka_unit_test(test_quick_frame_has_the_depth_and_nearly_the_normals_of_an_exact_one),
         cmocka_unit_test(test_quick_frame_shows_the_materials_and_leaves_the_exact_one_as_it_was),
         cmocka_unit_test(test_quick_normals_of_edge_on_planes_and_slivers_are_those_of_the_exact_frame),
+        cmocka_unit_test(test_quick_normals_lean_as_their_image_says_as_those_of_the_exact_frame),
         cmocka_unit_test(test_quick_frame_has_colours_and_emission_within_five_of_255_of_the_exact_one),
         cmocka_unit_test(test_quick_frame_blurs_no_image_that_is_seen_smaller_than_it_is_more_than_the_exact_one),
     };
