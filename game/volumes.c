@@ -388,6 +388,11 @@ static nook_result check_kept(const nook_volumes_desc *desc, const nook_bake *ba
     return NOOK_OK;
 }
 
+bool nook_volumes_holds_blended(nook_volume_kind kind)
+{
+    return kind == NOOK_VOLUME_DENSITY || kind == NOOK_VOLUME_SURFEL;
+}
+
 static nook_result bake_kind(const nook_volumes_desc *desc, nook_scene_volume *volume, nook_volume_kind kind,
                              bool *warned)
 {
@@ -395,17 +400,18 @@ static nook_result bake_kind(const nook_volumes_desc *desc, nook_scene_volume *v
                                  .vertex_count = volume->vertex_count,
                                  .indices = volume->indices,
                                  .index_count = volume->index_count };
-    if (kind == NOOK_VOLUME_DENSITY) {
+    if (nook_volumes_holds_blended(kind)) {
         triangles.vertex_count += volume->blended_vertex_count;
         triangles.index_count += volume->blended_index_count;
     }
     if (triangles.index_count == 0)
         return NOOK_OK;
-    const nook_alphas alphas = { volume->parts, volume->part_count, volume->uvs };
-    const nook_voxelize_desc how = { .resolution = volume->resolution,
-                                     .threads = desc->threads,
-                                     .kind = kind,
-                                     .alphas = kind == NOOK_VOLUME_DENSITY ? &alphas : NULL };
+    nook_alphas alphas = { volume->parts, volume->part_count, volume->uvs };
+    while (alphas.part_count > 0 && volume->parts[alphas.part_count - 1].first_index >= triangles.index_count)
+        alphas.part_count--; /* blended ones, where the kind does not hold them */
+    const nook_voxelize_desc how = {
+        .resolution = volume->resolution, .threads = desc->threads, .kind = kind, .alphas = &alphas
+    };
     nook_bake *bake = &volume->bakes[kind];
     nook_result result = nook_bake_cached(desc->cache_dir, volume->name, &triangles, &how, bake);
     return result == NOOK_OK ? check_kept(desc, bake, warned) : result;

@@ -6,8 +6,8 @@
  *
  * Animation     What a clip moves is a body. A mesh that skins or morph targets deform while it plays is voxelised every
  *               frame (game/live_volumes.h); one that stands still in a pose has one like any other (engine/animation/scene_stand.h).
- * Materials     Blended ones are left out: voxels would make glass as dark as a wall. Masked ones are in, whole. Volumes of the kind
- *               "density" alone hold them as what they are: blended ones with their alpha, masked ones with their holes.
+ * Materials     Masked ones are in, with their holes (distances: whole). Blended ones are in densities and surfels with their alpha, and left
+ *               out of voxels and distances, which would make glass as dark as a wall.
  * Resolution    follows from r_max: finer than r_max / NOOK_VOLUMES_VOXELS_PER_R_MAX cannot be told apart in the result. The static
  *               volume takes the `resolution` asked for on its longest side. A body takes as many voxels as make them that
  *               small in the world (at its largest instance), but at least NOOK_VOLUMES_BODY_RESOLUTION_MIN and at most
@@ -32,13 +32,12 @@ typedef struct nook_scene_volume {
     char *name;       /**< The mesh's name, or "static"; never NULL. */
     float *positions; /**< xyz, metres, mesh space; packed. Finite. */
     uint32_t vertex_count;
-    uint32_t *indices; /**< What was voxelised, and what the reference traces: all but blended materials. */
-    size_t
-        index_count; /**< A multiple of 3; 0: a body of glass alone, which is there as density and as nothing else. */
+    uint32_t *indices;  /**< First all but blended materials; the reference traces both. */
+    size_t index_count; /**< A multiple of 3; 0: a body of glass alone, which is there as densities and surfels only. */
     /** Blended ones stand behind those, in both arrays. */
     uint32_t blended_vertex_count;
     size_t blended_index_count;
-    float *uvs; /**< Two for each vertex, blended ones too; NULL where a plan has split what stands still. */
+    float *uvs;             /**< Two for each vertex, blended ones too. */
     nook_alpha_part *parts; /**< What of all this is not opaque; texels are the scene's. */
     uint32_t part_count;
     double longest;      /**< Longest side of the box of what is not blended, or else of all, metres, mesh space. */
@@ -115,6 +114,8 @@ nook_result nook_volumes_collect(const nook_scene *scene, const nook_volumes_des
  * @return NOOK_E_RANGE resolution or r_max; NOOK_E_MEMORY; NOOK_E_IO must_keep, and they cannot be kept; *out is untouched on failure
  */
 nook_result nook_volumes_bake(const nook_scene *scene, const nook_volumes_desc *desc, nook_scene_volumes *out);
+/** Whether blended triangles are in volumes of a kind; the others would make glass as dark as a wall. */
+bool nook_volumes_holds_blended(nook_volume_kind kind);
 /** Of all its triangles, blended ones too. */
 size_t nook_scene_volume_index_count(const nook_scene_volume *volume);
 /** The first kind that a volume was baked in. @return NULL for none */

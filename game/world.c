@@ -114,10 +114,12 @@ static nook_result upload(nook_ao *ao, const nook_scene_volume *baked, nook_worl
     nook_result result = nook_ao_reserve_volume(ao, &volume->occluder.volume);
     if (result == NOOK_OK)
         result = extend(ao, baked, volume);
-    if (result != NOOK_OK || baked->index_count == 0)
+    if (result != NOOK_OK)
         return result;
-    return nook_ao_add_mesh(ao, baked->positions, baked->vertex_count, baked->indices, (uint32_t)baked->index_count,
-                            &volume->occluder.mesh);
+    const nook_alphas alphas = { baked->parts, baked->part_count, baked->uvs };
+    return nook_ao_add_mesh_with_alphas(ao, baked->positions, baked->vertex_count + baked->blended_vertex_count,
+                                        baked->indices, (uint32_t)nook_scene_volume_index_count(baked), &alphas,
+                                        &volume->occluder.mesh);
 }
 
 static nook_result add_transform(nook_game_world *world, nook_entity entity, const nook_matrix *matrix)

@@ -24,8 +24,8 @@ static void describe(bake_help *out)
         "The resolution of a body follows from r_max: its voxels are r_max / %d, but it has at least %u along its\n"
         "longest side and at most half of --resolution. All that stands still shares one volume of --resolution.\n"
         "Compare, play and the others bake the kinds that they march by themselves, when they do.\n"
-        "Instances share a bake. Blended (glass-like) materials are left out, but for the kind density. Files are "
-        "named by content: a second\n"
+        "Instances share a bake. Blended (glass-like) materials are in densities and surfels only. Files are named by "
+        "content: a second\n"
         "bake finds them; when they cannot be written, bake fails. Format: docs/volume_format.md.\n",
         NOOK_VOLUMES_VOXELS_PER_R_MAX, NOOK_VOLUMES_BODY_RESOLUTION_MIN);
 }
@@ -46,7 +46,7 @@ static void tell_progress(void *user, const nook_scene_volume *done, uint32_t in
 static void print_row(const nook_scene_volume *v, const nook_bake *bake)
 {
     const nook_volume_info *info = &bake->info;
-    size_t triangles = v->index_count + (info->kind == NOOK_VOLUME_DENSITY ? v->blended_index_count : 0);
+    size_t triangles = v->index_count + (nook_volumes_holds_blended(info->kind) ? v->blended_index_count : 0);
     char size[40], time[32];
     snprintf(size, sizeof size, "%ux%ux%u", info->width, info->height, info->depth);
     snprintf(time, sizeof time, "%.1f", bake->ms);
@@ -88,7 +88,7 @@ static int bake_file(const char *path, const nook_volumes_desc *desc)
 {
     nook_scene *scene;
     nook_scene_volumes volumes;
-    const nook_scene_options options = { .skip_images = !(desc->kinds & NOOK_VOLUME_BIT(NOOK_VOLUME_DENSITY)) };
+    const nook_scene_options options = { .skip_images = desc->kinds == NOOK_VOLUME_BIT(NOOK_VOLUME_DISTANCE) };
     if (nook_scene_load(path, &options, &scene) != NOOK_OK)
         return NOOK_EXIT_FAILED;
     nook_result result = nook_moment_stand_still(scene, &(nook_moment){ .clip = NULL });

@@ -32,6 +32,9 @@ static uint64_t add_materials(uint64_t hash, const nook_scene *scene)
         };
         hash = add(hash, numbers, sizeof numbers);
         hash = add(hash, choices, sizeof choices);
+        if (m->alpha_mode !=
+            NOOK_ALPHA_OPAQUE) /* truths of before took what is masked whole, and left out what is blended */
+            hash = add(hash, "alpha", 5);
     }
     return hash;
 }

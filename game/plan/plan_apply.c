@@ -18,6 +18,17 @@ static void count_group(const nook_plan *plan, const nook_scene_volumes *volumes
             out->index_count += volumes->parts[i].index_count;
 }
 
+/* What stands still is split by primitives, and a primitive has one material. */
+static void copy_alpha(const nook_scene_volume *whole, const nook_volumes_part *part, size_t first_index,
+                       nook_scene_volume *out)
+{
+    for (uint32_t i = 0; i < whole->part_count; i++)
+        if (whole->parts[i].first_index == part->first_index) {
+            out->parts[out->part_count] = whole->parts[i];
+            out->parts[out->part_count++].first_index = first_index;
+        }
+}
+
 /* @param new_of_old  UINT32_MAX everywhere */
 static void copy_group(const nook_plan *plan, const nook_scene_volumes *volumes, uint32_t group,
                        const nook_scene_volume *whole, uint32_t *new_of_old, nook_scene_volume *out)
@@ -29,11 +40,14 @@ static void copy_group(const nook_plan *plan, const nook_scene_volumes *volumes,
             uint32_t old = whole->indices[part->first_index + k];
             if (new_of_old[old] == UINT32_MAX) {
                 new_of_old[old] = out->vertex_count;
+                memcpy(out->uvs + (size_t)out->vertex_count * 2, whole->uvs + (size_t)old * 2, 2 * sizeof(float));
                 memcpy(out->positions + (size_t)out->vertex_count++ * 3, whole->positions + (size_t)old * 3,
                        3 * sizeof(float));
             }
             out->indices[count++] = new_of_old[old];
         }
+        if (plan->group_of_part[i] == group)
+            copy_alpha(whole, part, count - part->index_count, out);
     }
 }
 
@@ -45,7 +59,9 @@ static nook_result make_group(const nook_plan *plan, const nook_scene_volumes *v
     out->name = malloc(NAME_SIZE);
     out->positions = malloc((out->index_count + 1) * 3 * sizeof *out->positions);
     out->indices = malloc((out->index_count + 1) * sizeof *out->indices);
-    if (!out->name || !out->positions || !out->indices)
+    out->uvs = malloc((out->index_count + 1) * 2 * sizeof *out->uvs);
+    out->parts = malloc(((size_t)whole->part_count + 1) * sizeof *out->parts);
+    if (!out->name || !out->positions || !out->indices || !out->uvs || !out->parts)
         return nook_fail(NOOK_E_MEMORY, "plan: no memory for static volume %u", group);
     snprintf(out->name, NAME_SIZE, "static %u", group);
     for (uint32_t i = 0; i < whole->vertex_count; i++)

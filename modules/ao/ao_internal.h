@@ -3,6 +3,7 @@
  */
 #pragma once
 #include "modules/ao/brick_pool_internal.h"
+#include "modules/ao/mesh_alphas_internal.h"
 #include "modules/ao/nook_ao.h"
 #include "modules/ao/slicemap.h"
 #include "modules/ao/technique.h"
@@ -27,6 +28,7 @@ typedef struct ao_mesh {
     nook_ao_mesh_view view; /**< Its arrays are owned here. */
     float *positions;
     uint32_t *indices;
+    ao_mesh_alphas *alphas; /**< NULL: all is opaque. */
 } ao_mesh;
 
 /** Row of the GPU's occluder list: struct Occluder of shaders/ao/occluders.glsl. */

@@ -46,23 +46,69 @@ static int reserve_mesh(nook_ao *ao)
     return 1;
 }
 
-nook_result nook_ao_add_mesh(nook_ao *ao, const float *positions, uint32_t vertex_count, const uint32_t *indices,
-                             uint32_t index_count, nook_ao_mesh *out_mesh)
+/** Sets how many indices stand before those of blended parts. @return NOOK_E_ARG something else stands behind them */
+static nook_result count_solid(const nook_alphas *alphas, uint32_t index_count, uint32_t *out_count)
 {
+    size_t solid = index_count, next = index_count;
+    if (!nook_alphas_are_sound(alphas, index_count))
+        return nook_fail(NOOK_E_ARG, "mesh: parts with alpha are not those of %u indices, in order and apart",
+                         index_count);
+    for (uint32_t i = 0; alphas && i < alphas->part_count; i++) {
+        const nook_alpha_part *part = &alphas->parts[i];
+        bool blended = !part->masked && part->index_count > 0;
+        if (blended && solid == index_count)
+            solid = next = part->first_index;
+        if (blended ? part->first_index != next : solid < index_count && part->index_count > 0)
+            break;
+        next = blended ? next + part->index_count : next;
+    }
+    if (next != index_count)
+        return nook_fail(NOOK_E_ARG, "mesh: blended parts must stand behind all others");
+    *out_count = (uint32_t)solid;
+    return NOOK_OK;
+}
+
+static void free_mesh(ao_mesh *mesh)
+{
+    free(mesh->positions);
+    free(mesh->indices);
+    ao_mesh_alphas_destroy(mesh->alphas);
+}
+
+nook_result nook_ao_add_mesh_with_alphas(nook_ao *ao, const float *positions, uint32_t vertex_count,
+                                         const uint32_t *indices, uint32_t index_count, const nook_alphas *alphas,
+                                         nook_ao_mesh *out_mesh)
+{
+    uint32_t solid = 0;
+    bool opaque = !alphas || alphas->part_count == 0;
     nook_result result = check_mesh(positions, vertex_count, indices, index_count);
+    if (result == NOOK_OK)
+        result = count_solid(alphas, index_count, &solid);
     if (result != NOOK_OK)
         return result;
     ao_mesh mesh = { .positions = copy_of(positions, (size_t)vertex_count * 3 * sizeof *positions),
-                     .indices = copy_of(indices, (size_t)index_count * sizeof *indices) };
-    if (!mesh.positions || !mesh.indices || !reserve_mesh(ao)) {
-        free(mesh.positions);
-        free(mesh.indices);
+                     .indices = copy_of(indices, (size_t)index_count * sizeof *indices),
+                     .alphas = opaque ? NULL : ao_mesh_alphas_create(alphas, vertex_count) };
+    if (!mesh.positions || !mesh.indices || (!opaque && !mesh.alphas) || !reserve_mesh(ao)) {
+        free_mesh(&mesh);
         return nook_fail(NOOK_E_MEMORY, "mesh: no memory for %u triangles", index_count / 3);
     }
-    mesh.view = (nook_ao_mesh_view){ mesh.positions, mesh.indices, vertex_count, index_count, ao->next_mesh_id++ };
+    mesh.view = (nook_ao_mesh_view){ .positions = mesh.positions,
+                                     .indices = mesh.indices,
+                                     .vertex_count = vertex_count,
+                                     .index_count = index_count,
+                                     .solid_index_count = solid,
+                                     .alphas = ao_mesh_alphas_get(mesh.alphas),
+                                     .id = ao->next_mesh_id++ };
     ao->meshes[ao->mesh_count++] = mesh;
     out_mesh->id = mesh.view.id;
     return NOOK_OK;
+}
+
+nook_result nook_ao_add_mesh(nook_ao *ao, const float *positions, uint32_t vertex_count, const uint32_t *indices,
+                             uint32_t index_count, nook_ao_mesh *out_mesh)
+{
+    return nook_ao_add_mesh_with_alphas(ao, positions, vertex_count, indices, index_count, NULL, out_mesh);
 }
 
 /** Meshes stand in the order of their ids: they are added at the end, and removal keeps the order. */
@@ -84,17 +130,14 @@ void nook_ao_remove_mesh(nook_ao *ao, nook_ao_mesh mesh)
     uint32_t i = ao_mesh_index(ao, mesh.id);
     if (i == UINT32_MAX)
         return;
-    free(ao->meshes[i].positions);
-    free(ao->meshes[i].indices);
+    free_mesh(&ao->meshes[i]);
     memmove(ao->meshes + i, ao->meshes + i + 1, (--ao->mesh_count - i) * sizeof *ao->meshes);
 }
 
 void ao_meshes_release(nook_ao *ao)
 {
-    for (uint32_t i = 0; i < ao->mesh_count; i++) {
-        free(ao->meshes[i].positions);
-        free(ao->meshes[i].indices);
-    }
+    for (uint32_t i = 0; i < ao->mesh_count; i++)
+        free_mesh(&ao->meshes[i]);
     free(ao->meshes);
     free(ao->mesh_views);
     ao->meshes = NULL;

@@ -12,6 +12,7 @@
  * Memory   inputs are copied before the call returns, unless the field says otherwise.
  */
 #pragma once
+#include "engine/core/alpha.h"
 #include "engine/core/rectangle.h"
 #include "engine/core/result.h"
 #include <stddef.h>
@@ -171,6 +172,15 @@ nook_result nook_ao_voxelize(nook_ao *ao, nook_ao_volume volume, const nook_ao_l
  */
 nook_result nook_ao_add_mesh(nook_ao *ao, const float *positions, uint32_t vertex_count, const uint32_t *indices,
                              uint32_t index_count, nook_ao_mesh *out_mesh);
+/**
+ * The same, and what of it is not opaque: the reference's rays pass through the holes of masked parts, and through blended ones by their
+ * alpha. hao's voxels hold masked parts whole, and no blended ones.
+ * @param alphas  blended parts stand behind all other triangles; NULL: all is opaque
+ * @return NOOK_E_ARG also for parts that are not some of the triangles in order and apart
+ */
+nook_result nook_ao_add_mesh_with_alphas(nook_ao *ao, const float *positions, uint32_t vertex_count,
+                                         const uint32_t *indices, uint32_t index_count, const nook_alphas *alphas,
+                                         nook_ao_mesh *out_mesh);
 void nook_ao_remove_mesh(nook_ao *ao, nook_ao_mesh mesh);
 
 /** Chooses who records. Its parameters keep their values. @return NOOK_E_NOT_FOUND (the line lists the names) */

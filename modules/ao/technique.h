@@ -14,14 +14,16 @@
 extern "C" {
 #endif
 
-#define NOOK_AO_TECHNIQUE_VERSION 6
+#define NOOK_AO_TECHNIQUE_VERSION 7
 
 /** Triangles for the reference, in mesh space. */
 typedef struct nook_ao_mesh_view {
     const float *positions;  /**< xyz * vertex_count, metres. */
     const uint32_t *indices; /**< index_count, a multiple of 3. */
     uint32_t vertex_count, index_count;
-    uint32_t id; /**< Never reused: a cache key. */
+    uint32_t solid_index_count; /**< Of the indices: those before blended parts. */
+    const nook_alphas *alphas;  /**< NULL: all is opaque. Lives as long as the mesh. */
+    uint32_t id;                /**< Never reused: a cache key. */
 } nook_ao_mesh_view;
 
 /** One traced instance of this frame: view space, metres, composed in double. */

@@ -29,7 +29,7 @@ static bool is_there(const hao_meshes *meshes, const nook_ao_pass *pass)
 static hao_box box_of(const nook_ao_mesh_view *view)
 {
     hao_box box = hao_nothing;
-    for (uint32_t i = 0; i < view->index_count; i++) {
+    for (uint32_t i = 0; i < view->solid_index_count; i++) {
         const float *p = view->positions + 3 * (size_t)view->indices[i];
         hao_box_add_point(&box, (const double[3]){ (double)p[0], (double)p[1], (double)p[2] });
     }
@@ -39,15 +39,15 @@ static hao_box box_of(const nook_ao_mesh_view *view)
 static nook_result copy_mesh(nook_gpu *gpu, const nook_ao_mesh_view *view, hao_mesh *out)
 {
     *out = (hao_mesh){ .id = view->id, .box = box_of(view) };
-    if (view->index_count == 0)
+    if (view->solid_index_count == 0)
         return NOOK_OK;
     nook_result result = nook_buffer_create(gpu, view->positions,
                                             (size_t)view->vertex_count * 3 * sizeof *view->positions, &out->vertices);
     if (result == NOOK_OK)
-        result =
-            nook_buffer_create(gpu, view->indices, (size_t)view->index_count * sizeof *view->indices, &out->indices);
+        result = nook_buffer_create(gpu, view->indices, (size_t)view->solid_index_count * sizeof *view->indices,
+                                    &out->indices);
     if (result == NOOK_OK)
-        out->index_count = view->index_count;
+        out->index_count = view->solid_index_count;
     else
         release_mesh(out, gpu);
     return result;

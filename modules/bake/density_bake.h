@@ -19,9 +19,6 @@ extern "C" {
 nook_result nook_density_bake(const nook_triangles *triangles, const nook_alphas *alphas, unsigned threads,
                               const nook_grid_frame *frame, nook_volume *out_volume);
 
-/** Of all that densities are made of and voxels are not: alphas, texels, and where on them corners lie. @param seed  the hash so far */
-uint64_t nook_density_hash(const nook_triangles *triangles, const nook_alphas *alphas, uint64_t seed);
-
 #ifdef __cplusplus
 }
 #endif

@@ -7,8 +7,8 @@
 extern "C" {
 #endif
 
-/** A rectangle cut by the six faces of a voxel and one plane more has 11 corners; one to spare. */
-enum { NOOK_POLYGON_CORNERS = 12 };
+/** A triangle cut by the six faces of a voxel and the four sides of a texel has 13 corners; one to spare. */
+enum { NOOK_POLYGON_CORNERS = 14 };
 
 typedef struct nook_polygon {
     double corner[NOOK_POLYGON_CORNERS][3];

@@ -12,12 +12,12 @@ extern "C" {
 #define NOOK_SURFEL_BAKE_VERSION 1u
 
 /**
- * @param frame  of the checked soup
+ * @param alphas  checked; NULL: all is opaque @param frame  of the checked soup
  * @param out_volume  its bricks, surfels and info.occupied are made, all else of it is zero; untouched on failure
  * @return NOOK_E_MEMORY
  */
-nook_result nook_surfel_bake(const nook_triangles *triangles, unsigned threads, const nook_grid_frame *frame,
-                             nook_volume *out_volume);
+nook_result nook_surfel_bake(const nook_triangles *triangles, const nook_alphas *alphas, unsigned threads,
+                             const nook_grid_frame *frame, nook_volume *out_volume);
 
 #ifdef __cplusplus
 }

@@ -26,22 +26,6 @@ static bool read_triangle(const nook_triangles *triangles, size_t triangle, floa
     return true;
 }
 
-/* In order, apart, within the list, and with texture coordinates where there is a texture. */
-static nook_result check_parts(const nook_triangles *triangles, const nook_alphas *alphas)
-{
-    size_t free_from = 0;
-    for (uint32_t i = 0; alphas && i < alphas->part_count; i++) {
-        const nook_alpha_part *part = &alphas->parts[i];
-        if (part->first_index < free_from || part->first_index > triangles->index_count ||
-            part->index_count > triangles->index_count - part->first_index || part->first_index % 3 != 0 ||
-            part->index_count % 3 != 0 || (part->texels && (!alphas->uvs || part->width == 0 || part->height == 0)))
-            return nook_fail(NOOK_E_ARG, "voxelize: part %u of %u is no part of %zu indices", i, alphas->part_count,
-                             triangles->index_count);
-        free_from = part->first_index + part->index_count;
-    }
-    return NOOK_OK;
-}
-
 static nook_result check_input(const nook_triangles *triangles, const nook_voxelize_desc *desc)
 {
     if (desc->resolution < 1 || desc->resolution > NOOK_VOXELIZE_RESOLUTION_MAX)
@@ -56,7 +40,10 @@ static nook_result check_input(const nook_triangles *triangles, const nook_voxel
         if (triangles->indices[i] >= triangles->vertex_count)
             return nook_fail(NOOK_E_ARG, "voxelize: index %u of %u vertices", triangles->indices[i],
                              triangles->vertex_count);
-    return check_parts(triangles, desc->alphas);
+    if (!nook_alphas_are_sound(desc->alphas, triangles->index_count))
+        return nook_fail(NOOK_E_ARG, "voxelize: parts with alpha are not those of %zu indices, in order and apart",
+                         triangles->index_count);
+    return NOOK_OK;
 }
 
 /* ---- The grid --------------------------------------------------------------------------------------------------- */

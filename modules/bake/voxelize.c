@@ -1,6 +1,7 @@
 #include "modules/bake/voxelize.h"
 #include "engine/core/jobs.h"
 #include "engine/core/log.h"
+#include "modules/bake/alpha_hash.h"
 #include "modules/bake/density_bake.h"
 #include "modules/bake/distance_bake.h"
 #include "modules/bake/rasterize.h"
@@ -10,27 +11,60 @@
 
 /* ---- The two passes --------------------------------------------------------------------------------------------- */
 
-static void mark_grid(void *user, const int32_t voxel[3], const double weight[3])
-{
-    (void)weight;
-    nook_voxel_grid_set(user, voxel);
-}
-
 typedef struct passes {
     const nook_triangles *triangles;
+    const nook_alphas *alphas; /* NULL: none of them is masked */
     const nook_grid_frame *frame;
-    nook_voxel_grid *rasterized; /* written by the first pass, only read by the second */
+    nook_voxel_grid *rasterized; /* written by the first pass, only read by the second: also where a mask has a hole */
+    nook_voxel_grid *kept;       /* what of that is there; `rasterized` itself without masks */
     nook_voxel_grid *extra;      /* written by the second */
 } passes;
+
+/* A triangle that is being rasterised. */
+typedef struct marker {
+    const passes *p;
+    size_t triangle;
+    const nook_alpha_part *mask; /* NULL: none */
+} marker;
+
+/* Blended ones are whole: what is bright through them is not for voxels to say. */
+static const nook_alpha_part *mask_of(const passes *p, size_t triangle)
+{
+    const nook_alpha_part *part = nook_alpha_part_of(p->alphas, triangle);
+    return part && part->masked ? part : NULL;
+}
+
+static bool is_there(const marker *m, const double weight[3])
+{
+    const uint32_t *corners = m->p->triangles->indices + 3 * m->triangle;
+    return !m->mask || nook_alpha_at(m->p->alphas, m->mask, corners, weight) > 0.0;
+}
+
+static void mark_rasterized(void *user, const int32_t voxel[3], const double weight[3])
+{
+    const marker *m = user;
+    nook_voxel_grid_set(m->p->rasterized, voxel);
+    if (m->p->kept != m->p->rasterized && is_there(m, weight))
+        nook_voxel_grid_set(m->p->kept, voxel);
+}
+
+static void mark_extra(void *user, const int32_t voxel[3], const double weight[3])
+{
+    const marker *m = user;
+    if (is_there(m, weight))
+        nook_voxel_grid_set(m->p->extra, voxel);
+}
 
 static void rasterize_triangles(void *user, size_t first, size_t last, unsigned worker)
 {
     const passes *p = user;
     (void)worker;
     nook_snapped_triangle snapped;
-    for (size_t t = first; t < last; t++)
+    for (size_t t = first; t < last; t++) {
+        marker m = { p, t, mask_of(p, t) };
         if (nook_grid_snap(p->frame, p->triangles, t, &snapped))
-            nook_rasterize_three_way(&snapped, p->frame->inner, mark_grid, p->rasterized);
+            nook_rasterize_three_way(&snapped, p->frame->inner, mark_rasterized, &m);
+    }
 }
 
 static void rasterize_narrow_triangles(void *user, size_t first, size_t last, unsigned worker)
@@ -38,35 +72,56 @@ static void rasterize_narrow_triangles(void *user, size_t first, size_t last, un
     const passes *p = user;
     (void)worker;
     nook_snapped_triangle snapped;
-    for (size_t t = first; t < last; t++)
+    for (size_t t = first; t < last; t++) {
+        marker m = { p, t, mask_of(p, t) };
         if (nook_grid_snap(p->frame, p->triangles, t, &snapped))
-            nook_rasterize_narrow(&snapped, p->frame->inner, p->rasterized, mark_grid, p->extra);
+            nook_rasterize_narrow(&snapped, p->frame->inner, p->rasterized, mark_extra, &m);
+    }
+}
+
+static bool has_masks(const nook_alphas *alphas)
+{
+    bool found = false;
+    for (uint32_t i = 0; alphas && i < alphas->part_count && !found; i++)
+        found = alphas->parts[i].masked;
+    return found;
 }
 
 static nook_result voxelize_binary(const nook_triangles *triangles, const nook_voxelize_desc *desc,
                                    const nook_grid_frame *frame, nook_volume *out_volume)
 {
     size_t voxel_count = (size_t)frame->size[0] * frame->size[1] * frame->size[2];
-    nook_voxel_grid *rasterized = nook_voxel_grid_create(frame->size), *extra = nook_voxel_grid_create(frame->size);
+    bool masks = has_masks(desc->alphas);
+    passes p = { .triangles = triangles, .alphas = masks ? desc->alphas : NULL, .frame = frame };
+    p.rasterized = nook_voxel_grid_create(frame->size);
+    p.extra = nook_voxel_grid_create(frame->size);
+    p.kept = masks ? nook_voxel_grid_create(frame->size) : p.rasterized;
     uint8_t *voxels = malloc(voxel_count);
     nook_result result = NOOK_OK;
-    if (rasterized && extra && voxels) {
-        passes p = { triangles, frame, rasterized, extra };
+    if (p.rasterized && p.extra && p.kept && voxels) {
         nook_parallel_for(triangles->index_count / 3, desc->threads, rasterize_triangles, &p);
         nook_parallel_for(triangles->index_count / 3, desc->threads, rasterize_narrow_triangles, &p);
-        uint64_t occupied = nook_voxel_grid_expand(rasterized, extra, voxels);
+        uint64_t occupied = nook_voxel_grid_expand(p.kept, p.extra, voxels);
         *out_volume = (nook_volume){ .info = { .occupied = occupied }, .voxels = voxels };
     } else {
         free(voxels);
         result = nook_fail(NOOK_E_MEMORY, "voxelize: no memory for %ux%ux%u voxels; lower the resolution",
                            frame->size[0], frame->size[1], frame->size[2]);
     }
-    nook_voxel_grid_destroy(rasterized);
-    nook_voxel_grid_destroy(extra);
+    if (masks)
+        nook_voxel_grid_destroy(p.kept);
+    nook_voxel_grid_destroy(p.rasterized);
+    nook_voxel_grid_destroy(p.extra);
     return result;
 }
 
 /* ---- Public ----------------------------------------------------------------------------------------------------- */
+
+static bool looks_at_alphas(const nook_voxelize_desc *desc)
+{
+    return desc->kind == NOOK_VOLUME_DENSITY || desc->kind == NOOK_VOLUME_SURFEL ||
+           (desc->kind == NOOK_VOLUME_BINARY && has_masks(desc->alphas));
+}
 
 uint64_t nook_voxelize_hash(const nook_triangles *triangles, const nook_voxelize_desc *desc)
 {
@@ -81,8 +136,8 @@ uint64_t nook_voxelize_hash(const nook_triangles *triangles, const nook_voxelize
     uint64_t hash = XXH3_64bits(settings, sizeof settings);
     if (desc->kind != NOOK_VOLUME_BINARY)
         hash = XXH3_64bits_withSeed(kind, sizeof kind, hash);
-    if (desc->kind == NOOK_VOLUME_DENSITY)
-        hash = nook_density_hash(triangles, desc->alphas, hash);
+    if (looks_at_alphas(desc))
+        hash = nook_alphas_hash(triangles, desc->alphas, hash);
     hash = XXH3_64bits_withSeed(triangles->indices, triangles->index_count * sizeof(uint32_t), hash);
     float chunk[CHUNK][3];
     for (uint32_t first = 0; first < triangles->vertex_count; first += CHUNK) {
@@ -105,7 +160,7 @@ static nook_result make_kind(const nook_triangles *triangles, const nook_voxeliz
     case NOOK_VOLUME_DENSITY:
         return nook_density_bake(triangles, desc->alphas, desc->threads, frame, out_volume);
     case NOOK_VOLUME_SURFEL:
-        return nook_surfel_bake(triangles, desc->threads, frame, out_volume);
+        return nook_surfel_bake(triangles, desc->alphas, desc->threads, frame, out_volume);
     case NOOK_VOLUME_DISTANCE:
         return nook_distance_bake(triangles, desc->threads, frame, out_volume);
     }

@@ -17,6 +17,7 @@
  *                       Wires and crumbs stay, while finely tessellated surfaces stay as thin as coarse ones.
  */
 #pragma once
+#include "engine/core/alpha.h"
 #include "modules/bake/volume_file.h"
 #include <stdbool.h>
 
@@ -31,22 +32,6 @@ extern "C" {
 #define NOOK_VOXELIZE_VERSION 2u
 #define NOOK_VOXELIZE_RESOLUTION_MAX (NOOK_VOLUME_SIDE_MAX - 2u)
 
-/** Triangles that are not opaque, all in one way; the kind "density" alone looks at them. */
-typedef struct nook_alpha_part {
-    size_t first_index, index_count; /**< Of the indices; multiples of 3. */
-    float alpha;                     /**< Of all of it; multiplies the texture's. [0, 1]. */
-    bool masked;                     /**< Opaque where alpha is at least `cutoff`, and not there elsewhere. */
-    float cutoff;
-    const uint8_t *texels; /**< RGBA, 4 bytes each, top row first, at uv (0, 0) to (1, 1) and repeated; NULL: none. */
-    uint32_t width, height;
-} nook_alpha_part;
-
-typedef struct nook_alphas {
-    const nook_alpha_part *parts; /**< In the order of their triangles, apart from each other; others are opaque. */
-    uint32_t part_count;
-    const float *uvs; /**< Two a vertex, packed; NULL where no part has a texture. */
-} nook_alphas;
-
 typedef struct nook_triangles {
     const float *positions; /**< xyz, metres, mesh space. */
     uint32_t stride;        /**< Bytes between vertices, at least 12; 0 means 12. */
@@ -59,7 +44,8 @@ typedef struct nook_voxelize_desc {
     uint32_t resolution;   /**< Voxels along the longest side of the mesh's box, the border not counted: [1, 512]. */
     uint32_t threads;      /**< 0: all cores. The result does not depend on it. */
     nook_volume_kind kind; /**< What is made of the triangles; 0: voxels. */
-    const nook_alphas *alphas; /**< Of the triangles; NULL: all are opaque. */
+    const nook_alphas
+        *alphas; /**< Of the triangles; NULL: all are opaque. What each kind makes of them: docs/volume_kinds.md. */
 } nook_voxelize_desc;
 
 /**
@@ -72,8 +58,8 @@ typedef struct nook_voxelize_desc {
 nook_result nook_voxelize(const nook_triangles *triangles, const nook_voxelize_desc *desc, nook_volume *out_volume);
 
 /**
- * Identifies a bake: a hash of positions, indices, kind, resolution and the versions of voxeliser and file, and for densities of parts. Threads and stride
- * do not enter. Takes what nook_voxelize takes.
+ * Identifies a bake: a hash of positions, indices, kind, resolution, the versions of voxeliser and file, and of those parts that the kind
+ * looks at. Threads and stride do not enter. Takes what nook_voxelize takes.
  */
 uint64_t nook_voxelize_hash(const nook_triangles *triangles, const nook_voxelize_desc *desc);
 

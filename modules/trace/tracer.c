@@ -1,6 +1,6 @@
 #include "modules/trace/tracer.h"
 #include "engine/core/log.h"
-#include <embree3/rtcore.h>
+#include "modules/trace/ray_filter.h"
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -10,6 +10,7 @@
 typedef struct traced_mesh {
     uint32_t id;
     RTCScene scene;
+    nook_ray_filter *filter; /* NULL: all is opaque */
 } traced_mesh;
 
 struct nook_tracer {
@@ -38,6 +39,12 @@ nook_result nook_tracer_create(unsigned threads, nook_tracer **out_tracer)
     return NOOK_OK;
 }
 
+static void release_mesh(traced_mesh *mesh)
+{
+    rtcReleaseScene(mesh->scene);
+    nook_ray_filter_destroy(mesh->filter);
+}
+
 void nook_tracer_destroy(nook_tracer *t)
 {
     if (!t)
@@ -45,7 +52,7 @@ void nook_tracer_destroy(nook_tracer *t)
     if (t->world)
         rtcReleaseScene(t->world);
     for (uint32_t i = 0; i < t->mesh_count; i++)
-        rtcReleaseScene(t->meshes[i].scene);
+        release_mesh(&t->meshes[i]);
     free(t->meshes);
     rtcReleaseDevice(t->device);
     free(t);
@@ -86,7 +93,7 @@ static void put_world(nook_tracer *t, RTCScene world)
 
 /** Embree reads 16 bytes at each vertex, so positions get one float of padding: they are copied into its own buffer. */
 static RTCScene build_triangles(const nook_tracer *t, const float *positions, uint32_t vertex_count,
-                                const uint32_t *indices, uint32_t index_count)
+                                const uint32_t *indices, uint32_t index_count, nook_ray_filter *filter)
 {
     RTCGeometry geometry = rtcNewGeometry(t->device, RTC_GEOMETRY_TYPE_TRIANGLE);
     float *vertex_buffer = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
@@ -99,6 +106,8 @@ static RTCScene build_triangles(const nook_tracer *t, const float *positions, ui
     }
     memcpy(vertex_buffer, positions, (size_t)vertex_count * 3 * sizeof *positions);
     memcpy(index_buffer, indices, (size_t)index_count * sizeof *indices);
+    if (filter)
+        nook_ray_filter_apply(filter, geometry);
     rtcCommitGeometry(geometry);
     RTCScene scene = new_scene(t);
     rtcAttachGeometry(scene, geometry);
@@ -119,10 +128,15 @@ static nook_result add_mesh(nook_tracer *t, const nook_ao_mesh_view *mesh)
         t->meshes = grown;
         t->mesh_capacity = capacity;
     }
-    RTCScene scene = build_triangles(t, mesh->positions, mesh->vertex_count, mesh->indices, mesh->index_count);
-    if (!scene)
+    nook_ray_filter *filter = mesh->alphas ? nook_ray_filter_create(mesh) : NULL;
+    RTCScene scene = NULL;
+    if (filter || !mesh->alphas)
+        scene = build_triangles(t, mesh->positions, mesh->vertex_count, mesh->indices, mesh->index_count, filter);
+    if (!scene) {
+        nook_ray_filter_destroy(filter);
         return nook_fail(NOOK_E_MEMORY, "ray tracer: no memory for %u triangles", mesh->index_count / 3);
-    t->meshes[t->mesh_count++] = (traced_mesh){ mesh->id, scene };
+    }
+    t->meshes[t->mesh_count++] = (traced_mesh){ mesh->id, scene, filter };
     return check_device(t);
 }
 
@@ -136,7 +150,7 @@ static void drop_removed(nook_tracer *t, const nook_ao_pass *pass)
             i++;
             continue;
         }
-        rtcReleaseScene(t->meshes[i].scene);
+        release_mesh(&t->meshes[i]);
         t->meshes[i] = t->meshes[--t->mesh_count];
     }
 }
@@ -175,7 +189,8 @@ nook_result nook_tracer_update(nook_tracer *t, const nook_ao_pass *pass)
 nook_result nook_tracer_update_triangles(nook_tracer *t, const float *positions, uint32_t vertex_count,
                                          const uint32_t *indices, uint32_t index_count)
 {
-    RTCScene world = index_count ? build_triangles(t, positions, vertex_count, indices, index_count) : new_scene(t);
+    RTCScene world =
+        index_count ? build_triangles(t, positions, vertex_count, indices, index_count, NULL) : new_scene(t);
     if (!world)
         return nook_fail(NOOK_E_MEMORY, "ray tracer: no memory for %u triangles", index_count / 3);
     rtcCommitScene(world);

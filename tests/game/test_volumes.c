@@ -163,6 +163,12 @@ static void test_blended_materials_are_left_out_and_masked_ones_are_in(void **st
     assert_int_equal(v.volumes[1].index_count, 0); /* three instances of glass alone */
     assert_null(nook_scene_volume_bake(&v.volumes[1]));
     nook_volumes_free(&v);
+    const nook_volumes_desc desc = {
+        .resolution = 16, .r_max = 2.0, .threads = 1, .kinds = NOOK_VOLUME_BIT(NOOK_VOLUME_SURFEL)
+    };
+    assert_int_equal(nook_volumes_bake(&s->scene, &desc, &v), NOOK_OK);
+    assert_non_null(nook_scene_volume_bake(&v.volumes[1])); /* surfels hold it, by its alpha */
+    nook_volumes_free(&v);
     free(s);
 }
 

@@ -1,0 +1,180 @@
+#include "modules/bake/surfel_cut.h"
+#include "engine/core/vector.h"
+#include "modules/bake/brick_grid.h"
+#include <math.h>
+#include <string.h>
+
+/* A triangle with area in the grid's steps. Its corners are sorted, so that sums do not depend on which one it begins with. */
+typedef struct placed {
+    nook_polygon polygon;
+    double normal[3];
+    uint32_t vertex[3]; /* of each corner */
+} placed;
+
+typedef struct cutter {
+    const nook_surfel_source *source;
+    nook_surfel_bins *bins;
+    placed triangle;
+    const nook_alpha_part *part; /* NULL: opaque */
+    nook_alpha_map map;
+    int32_t voxel[3];
+    bool out_of_memory;
+} cutter;
+
+/* ---- Reading ---------------------------------------------------------------------------------------------------- */
+
+static void swap_corners(nook_snapped_triangle *snapped, uint32_t *vertex, int low)
+{
+    int32_t kept[3];
+    uint32_t kept_vertex = vertex[low];
+    memcpy(kept, snapped->corner[low], sizeof kept);
+    memcpy(snapped->corner[low], snapped->corner[low + 1], sizeof kept);
+    memcpy(snapped->corner[low + 1], kept, sizeof kept);
+    vertex[low] = vertex[low + 1];
+    vertex[low + 1] = kept_vertex;
+}
+
+static void sort_corners(nook_snapped_triangle *snapped, uint32_t *vertex)
+{
+    for (int pass = 0; pass < 3; pass++) {
+        const int32_t *low = snapped->corner[pass % 2], *high = snapped->corner[pass % 2 + 1];
+        int axis = 0;
+        while (axis < 2 && low[axis] == high[axis])
+            axis++;
+        if (low[axis] > high[axis])
+            swap_corners(snapped, vertex, pass % 2);
+    }
+}
+
+/* @return false: no area */
+static bool read_triangle(const nook_surfel_source *source, size_t triangle, placed *out)
+{
+    nook_snapped_triangle snapped;
+    if (!nook_grid_snap(source->frame, source->triangles, triangle, &snapped))
+        return false;
+    memcpy(out->vertex, source->triangles->indices + 3 * triangle, sizeof out->vertex);
+    sort_corners(&snapped, out->vertex);
+    double u[3], v[3], across[3];
+    nook_polygon *polygon = &out->polygon;
+    polygon->count = 3;
+    for (int i = 0; i < 3; i++) {
+        for (int corner = 0; corner < 3; corner++)
+            polygon->corner[corner][i] = snapped.corner[corner][i]; /* steps: exact */
+        u[i] = polygon->corner[1][i] - polygon->corner[0][i];
+        v[i] = polygon->corner[2][i] - polygon->corner[0][i];
+    }
+    nook_vector_cross(u, v, across);
+    return nook_vector_normalize(across, out->normal);
+}
+
+static void find_range(const nook_polygon *polygon, int axis, int32_t inner, int32_t *out_first, int32_t *out_last)
+{
+    double low = INFINITY, high = -INFINITY;
+    for (int i = 0; i < polygon->count; i++) {
+        low = fmin(low, polygon->corner[i][axis]);
+        high = fmax(high, polygon->corner[i][axis]);
+    }
+    *out_first = nook_grid_layer(low, inner);
+    *out_last = nook_grid_layer(high, inner);
+}
+
+bool nook_surfel_reach(const nook_surfel_source *source, size_t triangle, int32_t out_slabs[2])
+{
+    placed p;
+    int32_t low, high;
+    if (!read_triangle(source, triangle, &p))
+        return false;
+    find_range(&p.polygon, 2, source->frame->inner[2], &low, &high);
+    out_slabs[0] = low / NOOK_BRICK_SIDE;
+    out_slabs[1] = high / NOOK_BRICK_SIDE;
+    return true;
+}
+
+/* Which part the triangle belongs to, and where it lies on its texture. */
+static void find_part(cutter *c, size_t triangle)
+{
+    const nook_alphas *alphas = c->source->alphas;
+    double uvs[3][2];
+    c->part = nook_alpha_part_of(alphas, triangle);
+    if (!c->part || !c->part->texels)
+        return;
+    for (int corner = 0; corner < 3; corner++)
+        for (int k = 0; k < 2; k++)
+            uvs[corner][k] = (double)alphas->uvs[2 * (size_t)c->triangle.vertex[corner] + (size_t)k];
+    c->map = nook_alpha_map_make((const double(*)[3])c->triangle.polygon.corner, (const double(*)[2])uvs, c->part);
+}
+
+/* ---- Cutting ---------------------------------------------------------------------------------------------------- */
+
+/* One piece that lies in one voxel. @param alpha  how much of it is there */
+static void add_piece(void *user, const nook_polygon *polygon, double alpha)
+{
+    cutter *c = user;
+    const double centre[3] = { 0.0, 0.0, 0.0 };
+    const uint32_t x = (uint32_t)c->voxel[0], y = (uint32_t)c->voxel[1], z = (uint32_t)c->voxel[2];
+    nook_polygon piece = { .count = polygon->count };
+    for (int i = 0; i < polygon->count; i++)
+        for (int axis = 0; axis < 3; axis++)
+            piece.corner[i][axis] = polygon->corner[i][axis] / NOOK_SUBVOXEL - (c->voxel[axis] + 0.5);
+    nook_polygon_moments moments = nook_polygon_measure(&piece, c->triangle.normal, centre);
+    moments.area *= alpha;
+    for (int i = 0; i < 3; i++)
+        moments.first[i] *= alpha;
+    for (int i = 0; i < 6; i++)
+        moments.second[i] *= alpha;
+    uint32_t brick = y / NOOK_BRICK_SIDE * c->source->counts[0] + x / NOOK_BRICK_SIDE;
+    uint32_t voxel = brick << 6 | nook_brick_bit(x, y, z);
+    if (nook_surfel_bins_add(c->bins, voxel, c->triangle.normal, &moments) != NOOK_OK)
+        c->out_of_memory = true;
+}
+
+static void add_pieces(cutter *c, const nook_polygon *polygon)
+{
+    if (c->part)
+        nook_alpha_cut(c->source->areas, c->part, &c->map, polygon, add_piece, c);
+    else
+        add_piece(c, polygon, 1.0);
+}
+
+/* Cuts along z, then y, then x; what is left is in one voxel. Layers end where those of voxels do: NOOK_LAYER_BIAS. */
+static void cut_axis(cutter *c, const nook_polygon *polygon, int axis, int32_t lowest, int32_t highest)
+{
+    int32_t first, last;
+    find_range(polygon, axis, c->source->frame->inner[axis], &first, &last);
+    first = first > lowest ? first : lowest;
+    last = last < highest ? last : highest;
+    nook_polygon rest = *polygon;
+    for (int32_t layer = first; layer <= last && rest.count > 0; layer++) {
+        nook_polygon here = rest, above = { .count = 0 };
+        if (layer < last)
+            nook_polygon_split(&rest, axis, (layer + 1.0) * NOOK_SUBVOXEL - NOOK_LAYER_BIAS, &here, &above);
+        c->voxel[axis] = layer;
+        if (here.count > 0 && axis > 0)
+            cut_axis(c, &here, axis - 1, 1, c->source->frame->inner[axis - 1]);
+        else if (here.count > 0)
+            add_pieces(c, &here);
+        rest = above;
+    }
+}
+
+nook_result nook_surfel_cut(const nook_surfel_source *source, size_t triangle, int32_t slab, nook_surfel_bins *bins)
+{
+    cutter c = { .source = source, .bins = bins };
+    const double up[3] = { 0.0, 0.0, 1.0 }, down[3] = { 0.0, 0.0, -1.0 };
+    if (!read_triangle(source, triangle, &c.triangle))
+        return NOOK_OK;
+    find_part(&c, triangle);
+    nook_polygon polygon = c.triangle.polygon, part;
+    int32_t lowest = slab * NOOK_BRICK_SIDE, highest = lowest + NOOK_BRICK_SIDE - 1, inner = source->frame->inner[2];
+    if (lowest > 1) {
+        nook_polygon_clip(&polygon, up, (double)lowest * NOOK_SUBVOXEL - NOOK_LAYER_BIAS, &part);
+        polygon = part;
+    }
+    if (highest < inner) {
+        nook_polygon_clip(&polygon, down, -((highest + 1.0) * NOOK_SUBVOXEL - NOOK_LAYER_BIAS), &part);
+        polygon = part;
+    }
+    if (polygon.count > 0)
+        cut_axis(&c, &polygon, 2, lowest > 1 ? lowest : 1, highest < inner ? highest : inner);
+    return c.out_of_memory ? NOOK_E_MEMORY : NOOK_OK;
+}

@@ -1,0 +1,34 @@
+/**
+ * surfel_cut.h - triangles cut into the voxels of a slab, and summed into bins; inside modules/bake only. A slab is one layer of bricks.
+ */
+#pragma once
+#include "modules/bake/alpha_area.h"
+#include "modules/bake/surfel_bins.h"
+#include "modules/bake/triangle_grid.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** What is cut, and into which grid. Borrows all of it. */
+typedef struct nook_surfel_source {
+    const nook_triangles *triangles;
+    const nook_alphas *alphas;     /**< NULL: all is opaque. */
+    const nook_alpha_areas *areas; /**< Of the alphas. */
+    const nook_grid_frame *frame;
+    uint32_t counts[3]; /**< Bricks. */
+} nook_surfel_source;
+
+/** First and last slab that a triangle lies in. @return false: it has no area, or a corner that is not finite */
+bool nook_surfel_reach(const nook_surfel_source *source, size_t triangle, int32_t out_slabs[2]);
+
+/**
+ * Adds what of a triangle lies in a slab. A voxel's number in the bins is that of its brick in the slab, x fastest, then y, times 64, and
+ * nook_brick_bit.
+ * @return NOOK_E_MEMORY, not logged
+ */
+nook_result nook_surfel_cut(const nook_surfel_source *source, size_t triangle, int32_t slab, nook_surfel_bins *bins);
+
+#ifdef __cplusplus
+}
+#endif
