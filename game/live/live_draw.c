@@ -34,7 +34,8 @@ static nook_result draw_gbuffer(nook_live *live, const nook_camera *camera)
 static nook_result bind_counts(nook_live *live, uint32_t view, nook_ao_frame *frame)
 {
     static const uint32_t zero = 0;
-    if (live->views.views[view].mode != NOOK_LIVE_FETCHES)
+    const uint32_t mode = live->views.views[view].mode;
+    if (!nook_live_mode_counts(mode))
         return NOOK_OK;
     nook_result result = live_fit_counts(live);
     const nook_rectangle *part = &live->places[view];
@@ -44,6 +45,7 @@ static nook_result bind_counts(nook_live *live, uint32_t view, nook_ao_frame *fr
     live->stage->gpu->gl->ClearTexSubImage(counts->id, 0, (GLint)part->x, (GLint)part->y, 0, (GLsizei)part->width,
                                            (GLsizei)part->height, 1, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
     frame->fetches = (nook_ao_texture){ counts->id, counts->width, counts->height };
+    frame->counts = mode == NOOK_LIVE_FETCHES ? NOOK_AO_COUNTS_FETCHES : NOOK_AO_COUNTS_STEPS;
     frame->same_view = 0; /* what is read once for all views belongs to each */
     return NOOK_OK;
 }
@@ -60,6 +62,8 @@ static nook_result record_view(nook_live *live, uint32_t view, const nook_settin
         result = live_apply(live, setting);
     if (result == NOOK_OK && live->coarse)
         result = nook_ao_parse_param(live->stage->ao, "ao.scale", "quarter");
+    if (result == NOOK_OK)
+        result = nook_ao_get_param(live->stage->ao, "ao.scale", &live->scales[view]);
     if (result == NOOK_OK)
         result = nook_ao_record(live->stage->ao, &frame);
     live_times_end(live, (live_pass)(LIVE_PASS_AO + view));

@@ -127,6 +127,7 @@ struct nook_live {
     bool frozen;                      /**< The G-buffer and the world stay. */
     bool stale;                       /**< Something other than `views` has changed since the picture was made. */
     nook_texture visibility[NOOK_LIVE_VIEWS_MAX]; /**< That the views show; id 0: all open. */
+    double scales[NOOK_LIVE_VIEWS_MAX];           /**< ao.scale that it was recorded with. */
     uint32_t frame_width, frame_height;           /**< Of the stage when the G-buffer was drawn; 0: never. */
     nook_camera camera;                           /**< Of the G-buffer. */
     bool picture_asked;                           /**< F12 was pressed. */

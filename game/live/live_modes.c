@@ -132,6 +132,36 @@ static nook_result show_counts(nook_live *live, const nook_rectangle *part, doub
     return NOOK_OK;
 }
 
+static nook_result show_divergence(nook_live *live, const nook_rectangle *part, double scale)
+{
+    nook_gpu *gpu = live->stage->gpu;
+    const int32_t pixels = 1 << (int)scale;
+    const int32_t inside[4] = { (int32_t)part->x, (int32_t)part->y, (int32_t)(part->x + part->width),
+                                (int32_t)(part->y + part->height) };
+    nook_program program;
+    nook_result result = begin_pass(live, "shaders/live/divergence.frag.glsl", part, &program);
+    if (result != NOOK_OK)
+        return result;
+    nook_bind_texture(gpu, UNIT_FIRST, live->targets.counts);
+    nook_bind_texture(gpu, UNIT_COLOURS, live->targets.amount_colours);
+    nook_uniform_int(gpu, 0, &pixels, 1);
+    nook_uniform_int(gpu, 1, inside, 4);
+    end_pass(live);
+    return NOOK_OK;
+}
+
+static nook_result show_counted(nook_live *live, uint32_t view, const nook_rectangle *part)
+{
+    switch (live->views.views[view].mode) {
+    case NOOK_LIVE_DIVERGENCE:
+        return show_divergence(live, part, live->scales[view]);
+    case NOOK_LIVE_STEPS:
+        return show_counts(live, part, live->views.steps_range * NOOK_AO_FETCH_UNITS);
+    default:
+        return show_counts(live, part, live->views.fetches_range * NOOK_AO_FETCH_UNITS);
+    }
+}
+
 static nook_result show_occluders(nook_live *live, const nook_rectangle *part)
 {
     nook_ao_frame frame = nook_stage_ao_frame(live->stage);
@@ -270,9 +300,11 @@ nook_result live_show_view(nook_live *live, uint32_t view, nook_texture visibili
     case NOOK_LIVE_OCCLUDERS:
         return show_occluders(live, &part);
     case NOOK_LIVE_FETCHES:
+    case NOOK_LIVE_STEPS:
+    case NOOK_LIVE_DIVERGENCE:
         if (visibility.id == 0 || live->targets.counts.id == 0)
             break;
-        return show_counts(live, &part, live->views.fetches_range * NOOK_AO_FETCH_UNITS);
+        return show_counted(live, view, &part);
     case NOOK_LIVE_ERROR:
         if (truth.id == 0)
             break;

@@ -199,6 +199,8 @@ static void edit_ranges(nook_live *live)
                                         "");
     if (any_shows(live, NOOK_LIVE_FETCHES, NOOK_LIVE_FETCHES))
         nook_overlay_slider_logarithmic(live->overlay, "full colour at fetches", &views->fetches_range, 10.0, 1e5, "");
+    if (any_shows(live, NOOK_LIVE_STEPS, NOOK_LIVE_STEPS))
+        nook_overlay_slider_logarithmic(live->overlay, "full colour at steps", &views->steps_range, 10.0, 1e5, "");
     if (any_shows(live, NOOK_LIVE_SLICES, NOOK_LIVE_VOXELS))
         edit_body(live);
 }

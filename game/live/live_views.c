@@ -8,10 +8,10 @@
 
 static const double nearest = 0.05;        /* of the picture: what is left of a view when a border is pushed */
 static const double counts_at_first = 8.0; /* occluders: a crowded place of the hall */
-static const double fetches_at_first = 400.0;
+static const double fetches_at_first = 400.0, steps_at_first = 300.0;
 
-static const char *const mode_names[NOOK_LIVE_BUFFERS] = { "lit",     "visibility", "error", "occluders",
-                                                           "fetches", "slices",     "voxels" };
+static const char *const mode_names[NOOK_LIVE_BUFFERS] = { "lit",   "visibility", "error",  "occluders", "fetches",
+                                                           "steps", "divergence", "slices", "voxels" };
 
 /* ---- Modes ------------------------------------------------------------------------------------------------------ */
 
@@ -47,9 +47,14 @@ bool nook_live_mode_parse(const char *name, uint32_t *out_mode)
     return false;
 }
 
+bool nook_live_mode_counts(uint32_t mode)
+{
+    return mode >= NOOK_LIVE_FETCHES && mode <= NOOK_LIVE_DIVERGENCE;
+}
+
 bool nook_live_mode_occludes(uint32_t mode)
 {
-    return mode <= NOOK_LIVE_ERROR || mode == NOOK_LIVE_FETCHES ||
+    return mode <= NOOK_LIVE_ERROR || nook_live_mode_counts(mode) ||
            (mode >= NOOK_LIVE_BUFFERS && nook_live_mode_buffer(mode) == NOOK_VIEW_LIGHT);
 }
 
@@ -71,6 +76,7 @@ void nook_live_views_reset(nook_live_views *views, const char *setting)
     views->error_range = (double)NOOK_ERROR_RANGE_DEFAULT;
     views->counts_range = counts_at_first;
     views->fetches_range = fetches_at_first;
+    views->steps_range = steps_at_first;
     for (int i = 0; i < 3; i++)
         views->slice[i] = 0.5;
     snprintf(views->views[0].setting, sizeof views->views[0].setting, "%s", setting);

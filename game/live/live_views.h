@@ -18,6 +18,8 @@ enum {
     NOOK_LIVE_ERROR,      /**< Visibility less the truth, as colour; needs a frozen camera. */
     NOOK_LIVE_OCCLUDERS,  /**< How many volumes may darken each pixel. */
     NOOK_LIVE_FETCHES,    /**< Texture fetches of each pixel. */
+    NOOK_LIVE_STEPS,      /**< Turns of the loops in which its rays are followed: nook_ao_frame.counts. */
+    NOOK_LIVE_DIVERGENCE, /**< Part of these that the lanes of a group of pixels wait for the longest of them. */
     NOOK_LIVE_SLICES,     /**< Three cuts through the volume of a chosen body. */
     NOOK_LIVE_VOXELS,     /**< The voxels of a chosen body, where it stands. */
     NOOK_LIVE_BUFFERS
@@ -40,7 +42,8 @@ typedef struct nook_live_views {
     double falloff, falloff_tau;         /**< As ao.falloff, ao.falloff_tau. */
     double error_range;                  /**< Errors of this size have the strongest colour; > 0. */
     double counts_range;                 /**< The same for occluders. */
-    double fetches_range;                /**< The same for fetches. */
+    double fetches_range;                /**< The same for fetches, */
+    double steps_range;                  /**< and for steps. */
     uint32_t body;                       /**< Whose volume is shown: index into the frame's occluders. */
     double slice[3];                     /**< Where it is cut, in parts of its box. */
 } nook_live_views;
@@ -52,6 +55,8 @@ const char *nook_live_mode_name(uint32_t mode);
 bool nook_live_mode_parse(const char *name, uint32_t *out_mode);
 /** Of modes from NOOK_LIVE_BUFFERS on, and of lit and visibility: the buffer as a number of nook_view. */
 int nook_live_mode_buffer(uint32_t mode);
+/** Of what its record counts: fetches, steps, divergence. */
+bool nook_live_mode_counts(uint32_t mode);
 /** Is the AO's visibility part of what this mode shows? */
 bool nook_live_mode_occludes(uint32_t mode);
 

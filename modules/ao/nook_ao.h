@@ -62,6 +62,8 @@ typedef struct nook_ao_occluder {
 } nook_ao_occluder;
 
 enum { NOOK_AO_FETCH_UNITS = 16 };
+/** What nook_ao_frame.fetches counts. Steps: turns of the loops in which `volume` and `hao` follow rays; other techniques have none. */
+enum { NOOK_AO_COUNTS_FETCHES, NOOK_AO_COUNTS_STEPS };
 
 typedef struct nook_ao_frame {
     double view_from_world[16]; /**< Rigid: to 1e-5. */
@@ -78,6 +80,7 @@ typedef struct nook_ao_frame {
     /** R32UI of the full size, cleared by the host; none: not counted. NOOK_AO_FETCH_UNITS for every texture fetch of a pixel of
         the part are added to it; those of a pixel of a coarser trace are shared out to the full-size pixels that it stands for. Slower. */
     nook_ao_texture fetches;
+    uint32_t counts; /**< NOOK_AO_COUNTS_*: what is added to it instead. */
 } nook_ao_frame;
 
 /** @return NOOK_E_ARG, NOOK_E_VERSION, NOOK_E_MEMORY or NOOK_E_DEVICE; *out_ao is NULL on failure. */

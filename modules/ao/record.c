@@ -10,7 +10,7 @@ _Static_assert(offsetof(frame_block, view_from_world) == 96, "std140 places view
 _Static_assert(offsetof(frame_block, origin) == 144 && sizeof(frame_block) == 208, "std140 places origin at 144");
 
 enum { BINDING_FETCHES = 2, AO_TEXTURE_UNITS = 8 };
-enum { COUNT_SUMS = 1, COUNT_PIXELS = 2 }; /* shaders/ao/counter.glsl */
+enum { COUNT_SUMS = 1, COUNT_PIXELS = 2, COUNT_STEPS = 4 }; /* shaders/ao/counter.glsl */
 
 static const double RIGID_TOLERANCE = 1e-5; /* what a product of a few matrices in float leaves */
 
@@ -261,7 +261,8 @@ static ao_work work_of(const nook_ao *ao, const ao_slot *slot, const nook_ao_fra
     int as_it_is = technique->exact && !(technique->is_filtered && technique->is_filtered(slot->params));
     int direct = scale == 0 && (as_it_is || ao->shared.filter == 0);
     int stepped = scale > 0 && ao->shared.upscale;
-    int counting = ao->shared.count * COUNT_SUMS + (frame->fetches.native != 0) * COUNT_PIXELS;
+    int pixels = frame->counts == NOOK_AO_COUNTS_STEPS ? COUNT_STEPS : COUNT_PIXELS;
+    int counting = ao->shared.count * COUNT_SUMS + (frame->fetches.native != 0) * pixels;
     return (ao_work){ .inputs = technique->inputs,
                       .kinds = ao_slot_kinds(slot),
                       .scale = scale,

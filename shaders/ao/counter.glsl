@@ -8,12 +8,13 @@ layout(std430, binding = 7) buffer Counter {
     uint seen; // full-size pixels with geometry, where the host's own depth is read last
 } counter;
 
-// What each full-size pixel has fetched, in sixteenths: nook_ao_frame.fetches.
+// What each full-size pixel has fetched, or its rays' steps, in sixteenths: nook_ao_frame.fetches.
 layout(binding = 2, r32ui) uniform uimage2D fetch_image;
-const int COUNT_SUMS = 1, COUNT_PIXELS = 2; // bits of frame.counting
+const int COUNT_SUMS = 1, COUNT_PIXELS = 2, COUNT_STEPS = 4; // bits of frame.counting; of the last two one at the most
 const uint FETCH_UNITS = 16u;
 
 uint fetches = 0u; // of this invocation
+uint steps = 0u;   // the same: turns of the loops in which rays are followed
 
 // One texel of a texture of the trace's or of the picture's size, inside of it, where the nearest is sampled. Not by texelFetch: a
 // software driver works out sizes and level anew for each pixel.
@@ -109,6 +110,8 @@ void add_counts_of(ivec2 first, int side)
         add_to_sums();
     if ((frame.counting & COUNT_PIXELS) != 0 && fetches > 0u)
         add_to_pixels(first, side, fetches * FETCH_UNITS / uint(side * side));
+    if ((frame.counting & COUNT_STEPS) != 0 && steps > 0u)
+        add_to_pixels(first, side, steps * FETCH_UNITS / uint(side * side));
 #endif
 }
 

@@ -12,7 +12,7 @@ layout(std140, binding = 0) uniform Frame {
     float falloff_tau;
     uint seed;
     int has_normal;              // 0: rebuild normals from depth
-    int counting;                // counter.glsl: 0 nothing, 1 sums, 2 pixels, 3 both
+    int counting;                // counter.glsl
     float filter_radius;         // trace pixels
     float filter_depth;          // pixel footprints
     float filter_normal;         // exponent

@@ -101,6 +101,7 @@ float occlusion_along(Receiver r, vec3 d, float jitter)
     if (!(apart > 0.0))
         return 0.0;
     for (int i = 0; i < params.tests; i++) {
+        steps++;
         float t = range.x + apart * (float(i) + jitter);
         vec3 at = r.at + d * t + r.normal * max(r.guard - rise * t, 0.0);
         if (is_full_at(at))

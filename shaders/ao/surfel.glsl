@@ -117,6 +117,7 @@ Passage walk(Ray ray, ivec3 size, int base)
         vec3 middle = vec3(0.0);
         float enter = t;
         for (; turns < most && t < end; turns++) {
+            steps++;
             ivec3 at = voxel >> 2;
             uvec4 brick = fetch_record(bricks, base + (at.z * size.y + at.y) * size.x + at.x);
             uint bit = bit_of(voxel), word = bit < 32u ? brick.x : brick.y;

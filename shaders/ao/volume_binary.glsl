@@ -110,6 +110,7 @@ float march(Occluder o, Receiver r, vec3 d, float cosine, float limit, float jit
     float correction = 0.5 * (shell - dr), last = min(path.end, limit - correction);
     float t = path.start + jitter * dr;
     for (int i = 0; i < int(count) && t < last; i++, t += dr) {
+        steps++;
         vec3 voxel = t < path.leave ? path.lifted + path.across * t : path.origin + path.along * t;
         voxel = clamp(voxel, vec3(MARGIN), o.size.xyz - MARGIN);
         if (density(o, voxel, atlas_grid()) >= params.threshold)

@@ -61,6 +61,7 @@ Passage walk_volume(Occluder o, Receiver r, vec3 d, float limit)
     ivec3 voxel = clamp(ivec3(floor(origin + along * t)), ivec3(1), size - 2);
     int most = size.x + size.y + size.z;
     for (int turns = 0; turns < most && t < (layer.alpha > 0.0 ? out_at : end); turns++) {
+        steps++;
         float alpha = fetch_texel(volume_atlas, base + voxel).r;
         vec3 exits = (vec3(voxel + ahead) - origin) * inverse;
         float leave = max(least(exits), t);

@@ -48,6 +48,7 @@ float march(Occluder o, Receiver r, vec3 d, float cosine, float limit, float jit
     float before = 1e30, far = 1.0; // of the sample before; none: as if it had fallen straight
     int most = int((o.size.x + o.size.y + o.size.z) / MIN_STEP);
     for (int turns = 0; turns < most && t < end; turns++) {
+        steps++;
         vec3 voxel = clamp(r.voxel + along * t, vec3(MARGIN), o.size.xyz - MARGIN);
         float distance = fetch_filtered(volume_atlas, (o.place.xyz + voxel) * texel).r * RANGE;
         if (distance < min(SURFACE, params.own_share * (rise * t - params.lift)))
