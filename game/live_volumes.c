@@ -48,10 +48,10 @@ static void choose_size(const nook_scene_pose *pose, double r_max, const double 
     double longest = longest_side(rest), largest = fmax(sides[0], fmax(sides[1], sides[2]));
     uint32_t resolution = nook_volumes_body_resolution(
         longest * nook_matrix_longest_axis(&pose->world_from_local[d->node]), r_max, NOOK_VOLUMES_RESOLUTION_DEFAULT);
-    volume->voxel_size = fmax(longest / resolution, largest / (NOOK_AO_LIVE_SIDE_MAX - 4));
+    volume->voxel_size = fmax(longest / resolution, largest / (NOOK_LIVE_VOLUME_SIDE_MAX - 4));
     for (int k = 0; k < 3; k++) {
         double wanted = ceil(sides[k] / volume->voxel_size) + 4.0; /* borders, and where the grid begins */
-        volume->size[k] = (uint32_t)fmin(wanted, NOOK_AO_LIVE_SIDE_MAX);
+        volume->size[k] = (uint32_t)fmin(wanted, NOOK_LIVE_VOLUME_SIDE_MAX);
     }
 }
 
@@ -72,11 +72,6 @@ static nook_result choose_sizes(nook_scene_pose *pose, double r_max, nook_live_v
 
 /* ---- Life -------------------------------------------------------------------------------------------------------- */
 
-static bool is_opaque(const nook_scene *scene, const nook_primitive *primitive)
-{
-    return primitive->index_count > 0 && scene->materials[primitive->material].alpha_mode != NOOK_ALPHA_BLEND;
-}
-
 /* Triangles of one deformable, for both. */
 static void add_triangles(const nook_scene *scene, nook_live_volumes *volumes, nook_live_volume *volume)
 {
@@ -84,7 +79,7 @@ static void add_triangles(const nook_scene *scene, nook_live_volumes *volumes, n
     const nook_mesh *mesh = &scene->meshes[d->mesh];
     for (uint32_t p = 0; p < mesh->primitive_count; p++) {
         const nook_primitive *primitive = &scene->primitives[mesh->first_primitive + p];
-        if (!is_opaque(scene, primitive))
+        if (!nook_primitive_is_opaque(scene, primitive))
             continue;
         volumes->ranges[volume->first_range + volume->range_count++] =
             (nook_ao_triangle_range){ primitive->first_index, primitive->index_count, primitive->first_vertex };
@@ -235,12 +230,15 @@ nook_result nook_live_volumes_voxelize(nook_live_volumes *volumes, nook_ao *ao, 
         nook_live_volume *volume = &volumes->items[i];
         if (volume->voxel_version == version || !matters(volume, pose, camera, aspect, r_max))
             continue;
+        nook_ao_live_part part = { .ranges = volumes->ranges + volume->first_range,
+                                   .range_count = volume->range_count };
         nook_ao_live_mesh mesh = { .vertex_buffer = nook_render_scene_vertices(scene).id,
                                    .vertex_stride = sizeof(nook_vertex),
                                    .index_buffer = nook_render_scene_indices(scene).id,
-                                   .ranges = volumes->ranges + volume->first_range,
-                                   .range_count = volume->range_count,
+                                   .parts = &part,
+                                   .part_count = 1,
                                    .voxel_size = volume->voxel_size };
+        memcpy(part.volume_from_part, nook_matrix_identity().m, sizeof part.volume_from_part);
         memcpy(mesh.box_min, pose->meshes[volume->deformable].box.min, sizeof mesh.box_min);
         memcpy(mesh.box_max, pose->meshes[volume->deformable].box.max, sizeof mesh.box_max);
         result = nook_ao_voxelize(ao, volume->occluder.volume, &mesh);

@@ -3,13 +3,15 @@
  * could see it; and their triangles for the reference, made anew on the CPU when that is asked for.
  *
  * Resolution    as bodies have it (game/volumes.h), of the mesh as it stands; coarser where a clip reaches out of what one live volume
- *               can hold (NOOK_AO_LIVE_SIDE_MAX).
+ *               is to hold (NOOK_LIVE_VOLUME_SIDE_MAX).
  */
 #pragma once
 #include "engine/animation/scene_pose.h"
 #include "engine/render/renderer.h"
 #include "modules/ao/ecs/occluder.h"
 #include "modules/ao/nook_ao.h"
+
+enum { NOOK_LIVE_VOLUME_SIDE_MAX = 128 /**< Voxels, as many as a texel of a slicemap has bits. */ };
 
 typedef struct nook_live_volume {
     uint32_t deformable;           /**< Into scene->deformables. */

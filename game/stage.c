@@ -131,6 +131,26 @@ static nook_result supply_volumes(void *user, uint32_t kinds)
     return nook_game_world_supply(stage->world, kinds, &stage->volumes);
 }
 
+static uint32_t live_resolution(const nook_stage *stage)
+{
+    uint32_t resolution = stage->volumes.resolution;
+    return !stage->live_scene ? 0 : resolution > 0 ? resolution : NOOK_VOLUMES_RESOLUTION_DEFAULT;
+}
+
+/* Triangles for the reference, and one volume that is voxelised as they move. */
+static nook_result fill_live(nook_stage *stage)
+{
+    const nook_volumes_desc desc = { .resolution = stage->volumes.resolution, .r_max = stage->volumes.r_max };
+    nook_scene_volumes collected;
+    if (nook_ao_volume_kinds(stage->ao) & ~NOOK_VOLUME_BIT(NOOK_VOLUME_BINARY))
+        return nook_fail(NOOK_E_ARG,
+                         "%s: live volumes hold binary voxels; take volume.kind = binary, or volumes = baked",
+                         stage->scene->path);
+    nook_result result = nook_volumes_collect(stage->scene, &desc, &collected);
+    return result == NOOK_OK ? nook_game_world_take_volumes(stage->world, stage->ao, &collected, live_resolution(stage))
+                             : result;
+}
+
 nook_result nook_stage_fill(nook_stage *stage, const nook_game_world_desc *desc)
 {
     nook_result result = NOOK_OK;
@@ -139,10 +159,10 @@ nook_result nook_stage_fill(nook_stage *stage, const nook_game_world_desc *desc)
         result = nook_game_world_create(stage->scene, &stage->world);
     }
     const nook_volumes_plan plan = { stage->plan, stage->plays, nook_game_world_multiplies(stage->ao) };
-    if (result == NOOK_OK)
-        result = nook_game_world_bake(stage->world, stage->ao, desc, &plan);
-    stage->filled = result == NOOK_OK;
     stage->volumes = *desc;
+    if (result == NOOK_OK)
+        result = stage->live_scene ? fill_live(stage) : nook_game_world_bake(stage->world, stage->ao, desc, &plan);
+    stage->filled = result == NOOK_OK;
     nook_ao_set_supply(stage->ao, supply_volumes, stage);
     if (result != NOOK_OK || stage->renderer)
         return result;
@@ -172,7 +192,7 @@ nook_result nook_stage_scene_upload(nook_stage *stage, nook_scene *scene, nook_s
     if (result == NOOK_OK)
         result = nook_game_world_create(scene, &made.world);
     if (result == NOOK_OK)
-        result = nook_game_world_take_volumes(made.world, stage->ao, baked);
+        result = nook_game_world_take_volumes(made.world, stage->ao, baked, live_resolution(stage));
     if (result == NOOK_OK)
         result = nook_render_scene_create(stage->gpu, scene, &made.render_scene);
     nook_volumes_free(baked);

@@ -42,7 +42,9 @@ typedef struct nook_stage {
     uint32_t occluder_max;        /**< Bodies that the AO has room for. */
     bool stop_asked;              /**< Esc or the close button while nook_stage_show looked. */
     bool quick; /**< Yours to set: draws as for play, nook_frame.quick and single-sided materials from one side. */
-    nook_plan_params plan;   /**< Yours to set before filling: what may be left out and made coarser; zero: nothing. */
+    nook_plan_params plan; /**< Yours to set before filling: what may be left out and made coarser; zero: nothing. */
+    bool
+        live_scene; /**< Yours to set before filling: one volume of all that is rigid, voxelised as it moves; nothing is baked. */
     uint32_t frame_index;    /**< Yours to set: seeds the noise of nook_stage_occlude. */
     nook_progress *progress; /**< Yours to set: told how far a long record is. NULL: nobody. */
 } nook_stage;

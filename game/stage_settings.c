@@ -14,6 +14,7 @@ nook_result nook_stage_fill_as_set(nook_stage *stage, const nook_settings_file *
 {
     double r_max = settings->r_max > 0.0 ? settings->r_max : nook_volumes_default_r_max(stage->scene);
     stage->plan = settings->plan;
+    stage->live_scene = settings->live;
     const nook_game_world_desc world = { settings->setting.resolution, r_max, cache };
     nook_result result = nook_setting_apply(stage->ao, &settings->setting);
     if (result == NOOK_OK)

@@ -19,6 +19,7 @@ struct nook_game_world {
     nook_scene_pose *pose;        /* NULL when nothing is animated */
     uint32_t *deformable_of_mesh; /* NOOK_NONE for most; with a pose */
     nook_live_volumes live;       /* of deformables, once volumes are baked */
+    nook_live_scene live_scene;   /* of all that is rigid, instead of what was baked */
     bool traced;                  /* the reference sees their poses */
     nook_draw *draws;
     nook_ao_occluder *occluders;
@@ -172,7 +173,7 @@ static nook_result make_occluders(nook_game_world *world, const nook_scene_volum
         else
             entity = world->of_node[occluder->node];
         nook_volume_occluder component = world->volumes[occluder->volume].occluder;
-        if (occluder->left_out)
+        if (occluder->left_out || world->live_scene.volume.id)
             component.volume = (nook_ao_volume){ 0 };
         if (result == NOOK_OK)
             result = nook_entity_add(world->entities, entity, world->components.volume_occluder, &component);
@@ -203,17 +204,29 @@ static nook_result make_live_volumes(nook_game_world *world, double r_max)
     return result == NOOK_OK ? tell_entities(world) : result;
 }
 
-static nook_result fill(nook_game_world *world, nook_scene_volumes *baked)
+/* An entity for what all rigid bodies are voxelised into. */
+static nook_result make_live_scene(nook_game_world *world, uint32_t resolution)
 {
-    uint32_t occluder_max = baked->occluder_count + world->scene->deformable_count;
+    nook_entity entity;
+    nook_result result = nook_live_scene_create(world->ao, world->scene, resolution, &world->live_scene);
+    if (result == NOOK_OK)
+        result = make_body(world, &world->live_scene.world_from_volume, false, &entity);
+    const nook_volume_occluder component = { .volume = world->live_scene.volume };
+    return result == NOOK_OK ? nook_entity_add(world->entities, entity, world->components.volume_occluder, &component)
+                             : result;
+}
+
+static nook_result fill(nook_game_world *world, nook_scene_volumes *baked, uint32_t live)
+{
+    uint32_t occluder_max = baked->occluder_count + world->scene->deformable_count + (live > 0);
     world->volumes = calloc(baked->volume_count + 1, sizeof *world->volumes);
     world->occluders = calloc(occluder_max + 1u, sizeof *world->occluders);
     if (!world->volumes || !world->occluders)
         return nook_fail(NOOK_E_MEMORY, "%s: no memory for its volumes", world->scene->path);
     world->volume_count = baked->volume_count;
-    world->kinds = baked->kinds;
+    world->kinds = live ? NOOK_WORLD_EVERY_KIND : baked->kinds; /* nothing is to be supplied */
     world->plan = baked->plan;
-    nook_result result = NOOK_OK;
+    nook_result result = live ? make_live_scene(world, live) : NOOK_OK;
     for (uint32_t i = 0; i < baked->volume_count && result == NOOK_OK; i++) {
         nook_world_volume *volume = &world->volumes[i];
         snprintf(volume->name, sizeof volume->name, "%s", baked->volumes[i].name);
@@ -290,14 +303,14 @@ nook_result nook_game_world_bake(nook_game_world *world, nook_ao *ao, const nook
     nook_scene_volumes baked = { 0 };
     const nook_volumes_plan nothing = { .moves = false };
     nook_result result = bake(world->scene, desc, nook_ao_volume_kinds(ao), plan ? plan : &nothing, &baked);
-    return result == NOOK_OK ? nook_game_world_take_volumes(world, ao, &baked) : result;
+    return result == NOOK_OK ? nook_game_world_take_volumes(world, ao, &baked, 0) : result;
 }
 
-nook_result nook_game_world_take_volumes(nook_game_world *world, nook_ao *ao, nook_scene_volumes *baked)
+nook_result nook_game_world_take_volumes(nook_game_world *world, nook_ao *ao, nook_scene_volumes *baked, uint32_t live)
 {
     assert(!world->ao);
     world->ao = ao;
-    nook_result result = fill(world, baked);
+    nook_result result = fill(world, baked, live);
     nook_volumes_free(baked);
     return result;
 }
@@ -333,6 +346,7 @@ void nook_game_world_destroy(nook_game_world *world)
     }
     nook_world_destroy(world->entities);
     nook_live_volumes_destroy(world->ao, &world->live);
+    nook_live_scene_destroy(world->ao, &world->live_scene);
     nook_scene_pose_destroy(world->pose);
     free(world->deformable_of_mesh);
     free(world->of_node);
@@ -410,11 +424,21 @@ nook_result nook_game_world_voxelize(nook_game_world *world, nook_render_scene *
                                      double aspect)
 {
     uint32_t version;
+    size_t draw_count;
     const nook_mesh_pose *poses = nook_game_world_poses(world, &version);
-    if (world->live.count == 0 || !poses)
-        return NOOK_OK;
+    const nook_draw *draws = nook_game_world_draws(world, &draw_count);
+    nook_result result = NOOK_OK;
+    if (world->live_scene.volume.id)
+        result = nook_live_scene_voxelize(&world->live_scene, world->ao, scene, draws, draw_count);
+    if (result != NOOK_OK || world->live.count == 0 || !poses)
+        return result;
     nook_render_scene_pose(scene, poses, version);
     return nook_live_volumes_voxelize(&world->live, world->ao, world->pose, version, scene, camera, aspect);
+}
+
+const nook_live_scene *nook_game_world_live_scene(const nook_game_world *world)
+{
+    return &world->live_scene;
 }
 
 const nook_live_volumes *nook_game_world_live_volumes(const nook_game_world *world)

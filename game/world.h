@@ -7,6 +7,7 @@
 #include "engine/ecs/world.h"
 #include "engine/render/renderer.h"
 #include "game/components.h"
+#include "game/live_scene.h"
 #include "game/live_volumes.h"
 #include "modules/ao/nook_ao.h"
 #include "modules/bake/volume_file.h"
@@ -63,9 +64,12 @@ nook_result nook_game_world_bake(nook_game_world *world, nook_ao *ao, const nook
 bool nook_game_world_multiplies(const nook_ao *ao);
 /**
  * The same with volumes that were baked elsewhere, of the same scene; empties them. Takes as long as the uploads.
+ * @param live  0; else voxels along the longest side of one live volume of all that is rigid (game/live_scene.h): what was baked is
+ *              not marched then, and may be missing
  * @return as nook_game_world_bake
  */
-nook_result nook_game_world_take_volumes(nook_game_world *world, nook_ao *ao, struct nook_scene_volumes *baked);
+nook_result nook_game_world_take_volumes(nook_game_world *world, nook_ao *ao, struct nook_scene_volumes *baked,
+                                         uint32_t live);
 /**
  * Bakes or reads the volumes in more kinds, and uploads those: when they are asked for (nook_ao_set_supply). What is there already
  * costs nothing.
@@ -90,6 +94,8 @@ nook_result nook_game_world_renew(nook_game_world *world);
 /** Runs one frame's systems and submits the occluders they collected. @return NOOK_E_MEMORY, NOOK_E_ARG */
 nook_result nook_game_world_update(nook_game_world *world, nook_ao *ao);
 
+/** The one volume of all that is rigid; zero where volumes were baked. */
+const nook_live_scene *nook_game_world_live_scene(const nook_game_world *world);
 /** Of what bends by clips; count 0 where nothing does. */
 const nook_live_volumes *nook_game_world_live_volumes(const nook_game_world *world);
 /** Seconds that pass for what is animated with the next update; calls before it add up. Backwards below 0. */
@@ -98,7 +104,8 @@ void nook_game_world_advance(nook_game_world *world, double seconds);
 const nook_mesh_pose *nook_game_world_poses(const nook_game_world *world, uint32_t *out_version);
 
 /**
- * Makes the volumes of deformables anew where their pose has changed and it matters for what a camera sees. After an update.
+ * Makes live volumes anew: that of the scene where something has moved, those of deformables where their pose has changed and it matters
+ * for what a camera sees. After an update.
  * @param scene  the world's, on the GPU; is put into the pose @return as nook_ao_voxelize
  */
 nook_result nook_game_world_voxelize(nook_game_world *world, nook_render_scene *scene, const nook_camera *camera,

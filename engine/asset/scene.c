@@ -183,6 +183,11 @@ nook_result nook_scene_finish(nook_scene *scene)
     return NOOK_OK;
 }
 
+bool nook_primitive_is_opaque(const nook_scene *scene, const nook_primitive *primitive)
+{
+    return primitive->index_count > 0 && scene->materials[primitive->material].alpha_mode != NOOK_ALPHA_BLEND;
+}
+
 uint32_t nook_scene_deformable_of_node(const nook_scene *scene, uint32_t node)
 {
     for (uint32_t i = 0; i < scene->deformable_count; i++)

@@ -169,6 +169,8 @@ void nook_scene_destroy(nook_scene *scene); /**< NULL is allowed. */
 nook_result nook_scene_from_triangles(const char *name, const float *positions, uint32_t vertex_count,
                                       const uint32_t *indices, uint32_t index_count, nook_scene **out_scene);
 
+/** Whether it draws triangles, and not as glass. */
+bool nook_primitive_is_opaque(const nook_scene *scene, const nook_primitive *primitive);
 /** The deformable of a node. @return NOOK_NONE: its mesh keeps its shape */
 uint32_t nook_scene_deformable_of_node(const nook_scene *scene, uint32_t node);
 

@@ -46,6 +46,7 @@ static nook_result set_params(nook_stage *stage, const nook_compare_options *opt
         result = set_param(stage, options->params.items[i]);
     if (options->plan >= 0)
         stage->plan.mode = options->plan;
+    stage->live_scene = options->volumes >= 0 ? options->volumes == 1 : options->settings && options->file.live;
     return result;
 }
 

@@ -42,7 +42,9 @@ static bool read_views(void *target, const char *text)
 bool nook_compare_options_read(const nook_app *app, int argc, char **argv, nook_compare_options *out,
                                int *out_exit_code)
 {
-    *out = (nook_compare_options){ .size = { 960, 540 }, .out = "out", .backend = NOOK_BACKEND_AUTO, .plan = -1 };
+    *out = (nook_compare_options){
+        .size = { 960, 540 }, .out = "out", .backend = NOOK_BACKEND_AUTO, .plan = -1, .volumes = -1
+    };
     out->scene = nook_option_default_scene(app, out->default_scene);
     out->cache = nook_option_default_cache(app, out->default_cache);
     char view_help[512], view_names[512], view_expects[600];
@@ -91,6 +93,12 @@ bool nook_compare_options_read(const nook_app *app, int argc, char **argv, nook_
           .placeholder = "MODE",
           .choices = "off|on|measured",
           .help = "march only the volumes that the scene requires (docs/plan.md): off, on or measured" },
+        { .name = "volumes",
+          .kind = NOOK_OPTION_CHOICE,
+          .target = &out->volumes,
+          .placeholder = "MADE",
+          .choices = "baked|live",
+          .help = "live: one for all that is rigid, voxelised on the GPU as it moves; nothing is baked" },
         { .name = "param",
           .kind = NOOK_OPTION_LIST,
           .target = &out->params,

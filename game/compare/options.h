@@ -16,6 +16,7 @@ typedef struct nook_compare_options {
     const char *techniques;  /**< "a,b,c"; NULL: all. */
     const char *ao_scale;    /**< For ao.scale, one of its choices; NULL: as in modules/ao/params.def. */
     int32_t plan;            /**< nook_plan_params.mode; -1: as `settings` says, else off. */
+    int32_t volumes;         /**< 0 baked, 1 live; -1: as `settings` says, else baked. */
     nook_option_list params; /**< "technique.name=value" */
     int32_t reference_rays;  /**< 0: the reference's own default. */
     int32_t frames;          /**< Timed ones of each technique; 0: as many as a few seconds allow. */

@@ -132,6 +132,20 @@ static void write_volumes(nook_json *json, const nook_game_world *world)
     nook_json_end_array(json);
 }
 
+/* Nothing of what stands in "volumes" was baked then. */
+static void write_live_scene(nook_json *json, const nook_live_scene *live)
+{
+    const double dimensions[] = { live->size[0], live->size[1], live->size[2] };
+    if (!live->volume.id)
+        return;
+    nook_json_key(json, "live_volume");
+    nook_json_begin_object(json);
+    nook_json_key(json, "dimensions");
+    nook_json_numbers(json, dimensions, 3);
+    nook_json_member_number(json, "voxel_size", live->voxel_size);
+    nook_json_end_object(json);
+}
+
 static void write_shared(nook_json *json, const nook_ao *ao)
 {
     size_t count;
@@ -181,6 +195,7 @@ static void write_all(nook_json *json, const nook_report *report)
     nook_json_member_integer(json, "pixels_with_geometry", (int64_t)comparison->rows[0].errors.count);
     write_plan(json, &report->stage->plan);
     write_volumes(json, report->stage->world);
+    write_live_scene(json, nook_game_world_live_scene(report->stage->world));
     nook_json_key(json, "reference");
     write_row(json, report, &comparison->rows[0]);
     nook_json_key(json, "techniques");

@@ -33,11 +33,22 @@ static void print_row(FILE *stream, const nook_compare_row *row, const nook_seco
     fputc('\n', stream);
 }
 
+static void print_live_scene(const nook_live_scene *live, FILE *stream)
+{
+    fprintf(stream, "one live volume of %u x %u x %u voxels, %.1f MB, made anew when something moves\n", live->size[0],
+            live->size[1], live->size[2], (double)live->size[0] * live->size[1] * live->size[2] * 1e-6);
+}
+
 static void print_volumes(const nook_report *report, FILE *stream)
 {
+    const nook_live_scene *live = nook_game_world_live_scene(report->stage->world);
     uint32_t count, cached = 0;
     uint64_t bytes = 0;
     double ms = 0.0;
+    if (live->volume.id) {
+        print_live_scene(live, stream);
+        return;
+    }
     const nook_world_volume *volumes = nook_game_world_volumes(report->stage->world, &count);
     for (uint32_t i = 0; i < count; i++) {
         nook_world_bake bakes = nook_world_volume_sum(&volumes[i], NOOK_WORLD_EVERY_KIND);

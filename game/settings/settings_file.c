@@ -56,6 +56,14 @@ static nook_result read_shared(reading *r, const char *name, const char *value, 
     return result;
 }
 
+static nook_result read_volumes(reading *r, const char *value)
+{
+    r->out.live = strcmp(value, "live") == 0;
+    return r->out.live || strcmp(value, "baked") == 0
+               ? NOOK_OK
+               : nook_fail(NOOK_E_FORMAT, "%s: volumes is baked or live, not %s", r->lines.where, value);
+}
+
 static nook_result read_entry(reading *r, const char *name, const char *value)
 {
     double choice;
@@ -67,6 +75,8 @@ static nook_result read_entry(reading *r, const char *name, const char *value)
         return read_shared(r, name, value, &r->out.r_max);
     if (strcmp(name, "plan") == 0 || strncmp(name, "plan.", 5) == 0)
         return nook_plan_params_assign(r->lines.where, &r->out.plan, name, value);
+    if (strcmp(name, "volumes") == 0)
+        return read_volumes(r, value);
     if (strcmp(name, "falloff") != 0)
         return nook_setting_assign(r->lines.where, &r->out.setting, name, value);
     nook_result result = read_shared(r, name, value, &choice);
@@ -173,6 +183,8 @@ static void write_setting(const nook_settings_file *file, FILE *stream)
     if (*file->falloff)
         fprintf(stream, "falloff = %s\n", file->falloff);
     write_plan(&file->plan, stream);
+    if (file->live)
+        fprintf(stream, "volumes = live\n");
 }
 
 nook_result nook_settings_file_write(const char *path, const nook_settings_file *file, const char *comment)

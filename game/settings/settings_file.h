@@ -8,7 +8,8 @@
  *   ao.scale = half
  *
  * One "name = value" a line, technique first. r_max (metres) and falloff may stand there too: they are then what the commands
- * use unless their own option says otherwise. So may plan (off, on, measured) and plan.error, plan.memory, ... (docs/plan.md).
+ * use unless their own option says otherwise. So may plan (off, on, measured) and plan.error, plan.memory, ... (docs/plan.md), and
+ * volumes: baked, or live, one for all that is rigid, voxelised as it moves (game/live_scene.h).
  */
 #pragma once
 #include "game/settings/setting.h"
@@ -19,7 +20,8 @@ typedef struct nook_settings_file {
     double r_max;     /**< Metres; 0: not given. */
     char falloff[32]; /**< A choice of ao.falloff; "": not given. */
     nook_plan_params
-        plan; /**< Initial values where nothing is given; all zero, which is off, in one that was not read. */
+        plan;  /**< Initial values where nothing is given; all zero, which is off, in one that was not read. */
+    bool live; /**< volumes = live. */
 } nook_settings_file;
 
 /** @return NOOK_E_NOT_FOUND, NOOK_E_IO, NOOK_E_FORMAT (file:line: what is wrong); *out untouched then */

@@ -8,16 +8,23 @@
 
 enum { SIDE = NOOK_AO_LIVE_SIDE_MAX, LOCATION_ORIGIN = 0, LOCATION_SIZE = 1, GROUP = 8, RUN = 32 /* layers */ };
 
-_Static_assert((int)SIDE <= (int)NOOK_SLICEMAP_BITS, "shaders/ao/voxel_merge.comp.glsl reads one texel of a column");
+_Static_assert((int)SIDE <= (int)NOOK_SLICEMAP_SIDE_MAX, "a slicemap has a bit for each layer");
 
 /* ---- Life -------------------------------------------------------------------------------------------------------- */
 
-static nook_result make_voxelizer(nook_ao *ao)
+static uint32_t most(const uint32_t size[3])
+{
+    uint32_t side = size[0] > size[1] ? size[0] : size[1];
+    return side > size[2] ? side : size[2];
+}
+
+/* For grids of `side` voxels. */
+static nook_result make_voxelizer(nook_ao *ao, uint32_t side)
 {
     ao_voxelizer *v = &ao->voxelizer;
     nook_result result = NOOK_OK;
     for (int axis = 0; axis < 3 && result == NOOK_OK; axis++)
-        result = nook_slicemap_fit(&v->slices[axis], ao->gpu, SIDE);
+        result = nook_slicemap_fit(&v->slices[axis], ao->gpu, side);
     if (result == NOOK_OK && !v->vertex_array)
         v->vertex_array = nook_slicing_vertex_array(ao->gpu);
     return result;
@@ -40,7 +47,7 @@ nook_result nook_ao_add_live_volume(nook_ao *ao, const char *name, const uint32_
         if (size[axis] < 3 || size[axis] > SIDE)
             return nook_fail(NOOK_E_RANGE, "%s: a live volume of %ux%ux%u voxels; each side must have 3 to %d", name,
                              size[0], size[1], size[2], SIDE);
-    nook_result result = make_voxelizer(ao);
+    nook_result result = make_voxelizer(ao, most(size));
     if (result != NOOK_OK)
         return result;
     nook_ao_volume made;
@@ -74,26 +81,35 @@ static void fit_grid(const nook_ao_live_mesh *mesh, const atlas_box *room, nook_
     }
 }
 
+/* Rows of voxel_from_part, in double until they are whole. */
+static void place_part(const nook_volume_info *info, const nook_ao_live_part *part, nook_slice_mesh *out)
+{
+    for (int axis = 0; axis < 3; axis++) {
+        for (int column = 0; column < 3; column++)
+            out->voxel_from_mesh[axis][column] = (float)(part->volume_from_part[column * 4 + axis] / info->voxel_size);
+        out->voxel_from_mesh[axis][3] =
+            (float)((part->volume_from_part[12 + axis] - info->origin[axis]) / info->voxel_size);
+    }
+}
+
 static nook_result draw_slices(nook_ao *ao, const nook_volume_info *info, const nook_ao_live_mesh *mesh)
 {
     nook_slice_mesh triangles = { .vertex_buffer = mesh->vertex_buffer,
                                   .vertex_stride = mesh->vertex_stride,
                                   .index_buffer = mesh->index_buffer };
-    for (int axis = 0; axis < 3; axis++) {
-        triangles.voxel_from_mesh[axis][axis] = (float)(1.0 / info->voxel_size);
-        triangles.voxel_from_mesh[axis][3] = (float)(-info->origin[axis] / info->voxel_size); /* a whole number */
-    }
     nook_slicing slicing;
     nook_result result = NOOK_OK;
     nook_slicing_begin(ao->gpu, ao->voxelizer.vertex_array, &slicing);
     for (int32_t axis = 0; axis < 3 && result == NOOK_OK; axis++) {
         result = nook_slicing_map(&slicing, &ao->voxelizer.slices[axis], axis);
-        if (result != NOOK_OK)
-            break;
-        nook_slicing_mesh(&slicing, &triangles);
-        for (uint32_t i = 0; i < mesh->range_count; i++)
-            nook_slicing_draw(&slicing, mesh->ranges[i].first_index, mesh->ranges[i].index_count,
-                              mesh->ranges[i].first_vertex);
+        for (uint32_t i = 0; i < mesh->part_count && result == NOOK_OK; i++) {
+            const nook_ao_live_part *part = &mesh->parts[i];
+            place_part(info, part, &triangles);
+            nook_slicing_mesh(&slicing, &triangles);
+            for (uint32_t r = 0; r < part->range_count; r++)
+                nook_slicing_draw(&slicing, part->ranges[r].first_index, part->ranges[r].index_count,
+                                  part->ranges[r].first_vertex);
+        }
     }
     nook_slicing_end(&slicing);
     return result;

@@ -136,7 +136,7 @@ void nook_ao_set_supply(nook_ao *ao, nook_ao_supply supply, void *user); /**< NU
 /** Kinds of volumes that its techniques march with their parameters as they are now: bits 1 << nook_volume_kind. */
 uint32_t nook_ao_volume_kinds(const nook_ao *ao);
 
-enum { NOOK_AO_LIVE_SIDE_MAX = 128 /**< Voxels along a side of a live volume, the empty border included. */ };
+enum { NOOK_AO_LIVE_SIDE_MAX = 512 /**< Voxels along a side of a live volume, the empty border included. */ };
 
 /** Triangles in a mesh's buffers. */
 typedef struct nook_ao_triangle_range {
@@ -144,19 +144,27 @@ typedef struct nook_ao_triangle_range {
     uint32_t first_vertex;             /**< Added to each index. */
 } nook_ao_triangle_range;
 
-/** A mesh on the GPU, in the shape that it has now. */
-typedef struct nook_ao_live_mesh {
-    uint32_t vertex_buffer; /**< GL name; a vertex begins with its position, three floats, metres, mesh space. */
-    uint32_t vertex_stride; /**< Bytes. */
-    uint32_t index_buffer;  /**< GL name; 32-bit. */
+/** Triangles that stand together. */
+typedef struct nook_ao_live_part {
     const nook_ao_triangle_range *ranges;
     uint32_t range_count;
-    float box_min[3], box_max[3]; /**< Holds all of them, mesh space. What leaves the volume's room darkens nothing. */
-    double voxel_size;            /**< Metres, > 0. */
+    double volume_from_part[16]; /**< Affine, column-major: from the vertices' space to the volume's, metres. */
+} nook_ao_live_part;
+
+/** A mesh on the GPU, in the shape that it has now, or several. */
+typedef struct nook_ao_live_mesh {
+    uint32_t vertex_buffer; /**< GL name; a vertex begins with its position, three floats, metres. */
+    uint32_t vertex_stride; /**< Bytes. */
+    uint32_t index_buffer;  /**< GL name; 32-bit. */
+    const nook_ao_live_part *parts;
+    uint32_t part_count;
+    float box_min[3],
+        box_max[3];    /**< Of all of them, the volume's space. What leaves the volume's room darkens nothing. */
+    double voxel_size; /**< Metres, > 0. */
 } nook_ao_live_mesh;
 
 /**
- * Makes room for a volume of a mesh that changes its shape; empty until nook_ao_voxelize. Removed like any other.
+ * Makes room for a volume of a mesh that changes its shape, or of a whole scene that moves; empty until nook_ao_voxelize. Removed like any other.
  * @param size  voxels along x, y, z: each in [3, NOOK_AO_LIVE_SIDE_MAX]; a box takes its sides / voxel_size, and 4 more
  * @return NOOK_E_RANGE, NOOK_E_MEMORY, NOOK_E_DEVICE; *out_volume is untouched then
  */

@@ -17,11 +17,12 @@ void main()
     if (any(greaterThanEqual(voxel, size)))
         return;
     bool inside = all(greaterThan(voxel.xy, ivec2(0))) && all(lessThan(voxel.xy, size.xy - 1)); // the outermost ones are empty
-    uint run = layers_of(texelFetch(along_z, ivec3(voxel.xy, 0), 0), voxel.z);
+    uint run = layers_of(texelFetch(along_z, ivec3(voxel.xy, voxel.z / SLICEMAP_BITS), 0), voxel.z);
+    ivec2 texel = voxel.xy / SLICEMAP_BITS;
     int end = min(voxel.z + 32, size.z);
     for (; voxel.z < end; voxel.z++) {
-        bool full = (run & 1u) != 0u || has_layer(texelFetch(along_x, ivec3(voxel.yz, 0), 0), voxel.x) ||
-                    has_layer(texelFetch(along_y, ivec3(voxel.xz, 0), 0), voxel.y);
+        bool full = (run & 1u) != 0u || has_layer(texelFetch(along_x, ivec3(voxel.yz, texel.x), 0), voxel.x) ||
+                    has_layer(texelFetch(along_y, ivec3(voxel.xz, texel.y), 0), voxel.y);
         run >>= 1;
         full = full && inside && voxel.z > 0 && voxel.z < size.z - 1;
         imageStore(atlas, origin + voxel, vec4(full ? 1.0 : 0.0));

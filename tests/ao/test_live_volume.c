@@ -1,4 +1,5 @@
 /* Volumes that the GPU makes anew, against those that are baked. */
+#include "engine/core/matrix.h"
 #include "modules/ao/ao_internal.h"
 #include "modules/bake/voxelize.h"
 #include "tests/support/log_capture.h"
@@ -59,7 +60,8 @@ typedef struct fixture {
     nook_gpu *gpu;
     nook_ao_volume volume;
     nook_buffer vertices, indices;
-    nook_ao_triangle_range part;
+    nook_ao_triangle_range range;
+    nook_ao_live_part part;
     nook_ao_live_mesh mesh;
     uint8_t *voxels; /* GRID^3 of the last voxelise */
 } fixture;
@@ -73,11 +75,13 @@ static fixture open_fixture(nook_gpu *gpu, const soup *s)
     assert_int_equal(nook_ao_add_live_volume(f.ao, "soup", size, &f.volume), NOOK_OK);
     assert_int_equal(nook_buffer_create(gpu, s->positions, sizeof s->positions, &f.vertices), NOOK_OK);
     assert_int_equal(nook_buffer_create(gpu, s->indices, sizeof s->indices, &f.indices), NOOK_OK);
-    f.part = (nook_ao_triangle_range){ 0, TRIANGLES * 3 + 6, 0 };
+    f.range = (nook_ao_triangle_range){ 0, TRIANGLES * 3 + 6, 0 };
+    f.part = (nook_ao_live_part){ .range_count = 1 };
+    memcpy(f.part.volume_from_part, nook_matrix_identity().m, sizeof f.part.volume_from_part);
     f.mesh = (nook_ao_live_mesh){ .vertex_buffer = f.vertices.id,
                                   .vertex_stride = 3 * sizeof(float),
                                   .index_buffer = f.indices.id,
-                                  .range_count = 1,
+                                  .part_count = 1,
                                   .box_min = { -1, -1, -1 },
                                   .box_max = { 1, 1, 1 },
                                   .voxel_size = 2.0 / RESOLUTION };
@@ -86,14 +90,21 @@ static fixture open_fixture(nook_gpu *gpu, const soup *s)
     return f;
 }
 
-static void voxelize(fixture *f)
+/* Of the mesh as it is told. */
+static void read_voxels(fixture *f)
 {
-    f->mesh.ranges = &f->part;
     assert_int_equal(nook_ao_voxelize(f->ao, f->volume, &f->mesh), NOOK_OK);
     const atlas_entry *entry = volume_atlas_find(&f->ao->atlases[NOOK_VOLUME_BINARY], f->volume.id);
     assert_int_equal(entry->info.width, GRID);
     nook_texture_read(f->gpu, f->ao->atlases[NOOK_VOLUME_BINARY].texture, GL_RED, GL_UNSIGNED_BYTE, f->voxels,
                       GRID * GRID * GRID);
+}
+
+static void voxelize(fixture *f)
+{
+    f->part.ranges = &f->range;
+    f->mesh.parts = &f->part;
+    read_voxels(f);
 }
 
 static void close_fixture(fixture *f)
@@ -176,8 +187,8 @@ static void test_a_volume_made_anew_forgets_what_was_in_it(void **state)
     make_soup(&s, 7);
     fixture f = open_fixture(gpu, &s);
     voxelize(&f);
-    f.part.first_index = TRIANGLES * 3;
-    f.part.index_count = 6;
+    f.range.first_index = TRIANGLES * 3;
+    f.range.index_count = 6;
     voxelize(&f);
     int marked = 0;
     for (int i = 0; i < GRID * GRID * GRID; i++)
@@ -192,7 +203,8 @@ static void test_grids_move_by_whole_voxels(void **state)
     static soup s;
     make_soup(&s, 7);
     fixture f = open_fixture(gpu, &s);
-    f.mesh.ranges = &f.part;
+    f.part.ranges = &f.range;
+    f.mesh.parts = &f.part;
     for (float by = -0.3f; by < 0.3f; by += 0.0371f) {
         f.mesh.box_min[0] = -0.5f + by;
         f.mesh.box_max[0] = 0.5f + by;
@@ -204,6 +216,95 @@ static void test_grids_move_by_whole_voxels(void **state)
         assert_true(info->origin[0] + (info->width - 1.0) * info->voxel_size >= (double)f.mesh.box_max[0] - 1e-9);
     }
     close_fixture(&f);
+}
+
+static void test_parts_stand_where_their_matrices_put_them(void **state)
+{
+    nook_gpu *gpu = test_gpu_of(state);
+    static soup s;
+    static uint8_t before[GRID * GRID * GRID];
+    make_soup(&s, 7);
+    fixture f = open_fixture(gpu, &s);
+    voxelize(&f);
+    memcpy(before, f.voxels, sizeof before);
+    close_fixture(&f);
+    for (size_t i = 0; i < NOOK_COUNT(s.positions); i++) { /* half as large, axes exchanged: exact in floats */
+        const float p[3] = { s.positions[i][0], s.positions[i][1], s.positions[i][2] };
+        for (int k = 0; k < 3; k++)
+            s.positions[i][k] = 0.5f * p[(k + 1) % 3];
+    }
+    f = open_fixture(gpu, &s);
+    nook_ao_triangle_range halves[2] = { { 0, TRIANGLES * 3, 0 }, { TRIANGLES * 3, 6, 0 } };
+    nook_ao_live_part parts[2] = { { &halves[0], 1, { 0 } }, { &halves[1], 1, { 0 } } };
+    for (int i = 0; i < 2; i++) {
+        for (int k = 0; k < 3; k++)
+            parts[i].volume_from_part[k * 4 + (k + 1) % 3] = 2.0;
+        parts[i].volume_from_part[15] = 1.0;
+    }
+    f.mesh.parts = parts;
+    f.mesh.part_count = 2;
+    read_voxels(&f);
+    assert_memory_equal(f.voxels, before, sizeof before);
+    parts[0].volume_from_part[12] = 3.0 * f.mesh.voxel_size; /* the ball alone */
+    read_voxels(&f);
+    for (int z = 8; z < GRID - 8; z++)
+        for (int y = 8; y < GRID - 8; y++)
+            for (int x = 8; x < GRID - 8; x++)
+                assert_int_equal(f.voxels[(z * GRID + y) * GRID + x], before[(z * GRID + y) * GRID + x - 3]);
+    close_fixture(&f);
+}
+
+/* Squares across each axis near the far end of a grid of more layers than one texel of a slicemap has. */
+static void test_layers_beyond_the_first_texel_are_those_of_the_grid(void **state)
+{
+    enum { LARGE = 300, AT = 280 };
+    nook_gpu *gpu = test_gpu_of(state);
+    static soup s;
+    const float low = 20.5f, high = 290.5f, across = AT + 0.5f; /* voxels of 1 m; the grid begins at -1 */
+    const float corners[6][2] = { { low, low },  { high, low }, { low, high },
+                                  { low, high }, { high, low }, { high, high } };
+    for (int axis = 0; axis < 3; axis++) {
+        for (int i = 0; i < 6; i++) {
+            s.positions[i][axis] = across;
+            s.positions[i][(axis + 1) % 3] = corners[i][0];
+            s.positions[i][(axis + 2) % 3] = corners[i][1];
+            s.indices[i] = (uint32_t)i;
+        }
+        fixture f = open_fixture(gpu, &s);
+        const uint32_t size[3] = { LARGE, LARGE, LARGE };
+        nook_ao_volume large;
+        uint8_t *voxels = malloc((size_t)LARGE * LARGE * LARGE);
+        assert_non_null(voxels);
+        nook_ao_remove_volume(f.ao, f.volume);
+        assert_int_equal(nook_ao_add_live_volume(f.ao, "large", size, &large), NOOK_OK);
+        f.range.index_count = 6;
+        f.part.ranges = &f.range;
+        f.mesh.parts = &f.part;
+        f.mesh.voxel_size = 1.0;
+        for (int k = 0; k < 3; k++) {
+            f.mesh.box_min[k] = 0.0f;
+            f.mesh.box_max[k] = LARGE - 3;
+        }
+        assert_int_equal(nook_ao_voxelize(f.ao, large, &f.mesh), NOOK_OK);
+        const nook_texture atlas = f.ao->atlases[NOOK_VOLUME_BINARY].texture;
+        assert_int_equal(atlas.width, LARGE);
+        nook_texture_read(gpu, atlas, GL_RED, GL_UNSIGNED_BYTE, voxels, (size_t)LARGE * LARGE * LARGE);
+        for (int z = 0; z < LARGE; z++)
+            for (int y = 0; y < LARGE; y++)
+                for (int x = 0; x < LARGE; x++) {
+                    const int at[3] = { x - 1, y - 1, z - 1 }; /* metres */
+                    bool full = at[axis] == AT;
+                    for (int k = 1; k < 3; k++)
+                        full = full && at[(axis + k) % 3] >= 20 && at[(axis + k) % 3] <= 290;
+                    int own = voxels[(z * LARGE + y) * LARGE + x] != 0;
+                    bool edge = false; /* whose centres the edges run through */
+                    for (int k = 1; k < 3; k++)
+                        edge = edge || at[(axis + k) % 3] == 20 || at[(axis + k) % 3] == 290;
+                    assert_true(own == full || (full && edge));
+                }
+        free(voxels);
+        close_fixture(&f);
+    }
 }
 
 static void test_sizes_and_ids_that_cannot_be_are_refused(void **state)
@@ -233,6 +334,10 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_a_volume_made_anew_forgets_what_was_in_it, test_gpu_setup,
                                         test_gpu_teardown),
         cmocka_unit_test_setup_teardown(test_grids_move_by_whole_voxels, test_gpu_setup, test_gpu_teardown),
+        cmocka_unit_test_setup_teardown(test_parts_stand_where_their_matrices_put_them, test_gpu_setup,
+                                        test_gpu_teardown),
+        cmocka_unit_test_setup_teardown(test_layers_beyond_the_first_texel_are_those_of_the_grid, test_gpu_setup,
+                                        test_gpu_teardown),
         cmocka_unit_test_setup_teardown(test_sizes_and_ids_that_cannot_be_are_refused, test_gpu_setup,
                                         test_gpu_teardown),
     };

@@ -83,6 +83,28 @@ static void test_what_is_written_reads_back_the_same(void **state)
     assert_string_equal(again.falloff, file.falloff);
 }
 
+static void test_volumes_are_baked_unless_a_file_wants_them_live(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        bool live;
+    } files[] = { { "technique = volume\n", false },
+                  { "technique = volume\nvolumes = baked\n", false },
+                  { "technique = volume\nvolumes = live\n", true } };
+    char path[PATH_BYTES];
+    nook_settings_file file, again;
+    for (size_t i = 0; i < NOOK_COUNT(files); i++) {
+        write_text(path, files[i].text, strlen(files[i].text));
+        assert_int_equal(nook_settings_file_read(path, &file), NOOK_OK);
+        assert_true(file.live == files[i].live);
+        assert_int_equal(nook_settings_file_write(path, &file, NULL), NOOK_OK);
+        assert_int_equal(nook_settings_file_read(path, &again), NOOK_OK);
+        assert_true(again.live == files[i].live);
+    }
+    must_refuse("technique = volume\nvolumes = dead\n", "2", "baked or live");
+}
+
 static void test_a_plan_is_read_and_written(void **state)
 {
     (void)state;
@@ -189,6 +211,7 @@ int main(void)
         cmocka_unit_test(test_a_file_is_read),
         cmocka_unit_test(test_r_max_and_falloff_need_not_be_given),
         cmocka_unit_test(test_what_is_written_reads_back_the_same),
+        cmocka_unit_test(test_volumes_are_baked_unless_a_file_wants_them_live),
         cmocka_unit_test(test_a_plan_is_read_and_written),
         cmocka_unit_test(test_every_technique_as_it_comes_is_one_line),
         cmocka_unit_test(test_wrong_files_are_refused_with_their_line),
