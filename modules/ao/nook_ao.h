@@ -22,7 +22,7 @@
 extern "C" {
 #endif
 
-#define NOOK_AO_VERSION 2
+#define NOOK_AO_VERSION 3
 
 typedef struct nook_ao nook_ao; /**< One per device and view. */
 typedef struct nook_ao_volume {
