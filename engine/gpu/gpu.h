@@ -11,6 +11,8 @@
  * - Each thread gets one contiguous share of a dispatch's groups: background in one half idles a core.
  * - Timer queries lie: 0 ms for a dispatch of 100 ms. See nook_gpu_timer_trusted.
  * - Loads from storage buffers cost twice a texelFetch from a texture buffer; trilinear taps three times a nearest one.
+ * - In fragment shaders, and in loops and branches of others, each lane fetches each number of a uniform block on its own: 25 instructions.
+ *   What is one for the picture is handed on as flat outputs of its three vertices (shaders/render/by_vertex.glsl).
  * - Linear filtering of 8 bit formats gives whole steps of 1/255: use R16F or R32F where that is too coarse.
  * - The first use of a program compiles it once more (10 to 200 ms): warm up before timing.
  * - Do not redeclare gl_PerVertex in a vertex shader: it then fails to link.

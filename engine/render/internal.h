@@ -55,7 +55,7 @@ typedef struct lights_block {
     float ambient_bottom[4];
     uint32_t point_count[4]; /* x */
     struct {
-        float position_range[4];
+        float position_fade[4];   /* w: one over the range squared, 0: unbounded */
         float colour_inner[4];    /* w: cosine of the inner angle */
         float direction_outer[4]; /* w: cosine of the outer angle; direction 0: not a spot */
     } points[NOOK_MAX_POINT_LIGHTS];

@@ -38,20 +38,28 @@ static bool can_unroll(const nook_lights *lights)
     return can;
 }
 
-/** The program of a frame's lights, compiled when a number of them comes for the first time. */
+/** The program of a frame's lights, compiled when a number of them comes for the first time; on software GL with a vertex shader that
+    hands on what is one for the whole picture. */
 static nook_program lighting_program(nook_renderer *renderer, const nook_lights *lights, bool to_image)
 {
     char defines[DEFINES_SIZE];
     nook_program program = to_image ? renderer->lighting_image_program : renderer->lighting_program;
     if (!can_unroll(lights))
         return program;
-    int length = snprintf(defines, sizeof defines, "%s#define EACH_POINT(f)", to_image ? "#define TO_IMAGE\n" : "");
+    const char *vertex = "shaders/render/fullscreen.vert.glsl";
+    int length = snprintf(defines, sizeof defines, "%s", to_image ? "#define TO_IMAGE\n" : "");
+    if (renderer->gpu->software) {
+        vertex = "shaders/render/lighting.vert.glsl";
+        length +=
+            snprintf(defines + length, sizeof defines - (size_t)length, "#define BY_VERTEX %u\n", lights->point_count);
+    }
+    length += snprintf(defines + length, sizeof defines - (size_t)length, "#define EACH_POINT(f)");
     for (uint32_t i = 0; i < lights->point_count; i++)
         length += snprintf(defines + length, sizeof defines - (size_t)length, " f(%u);", i);
     snprintf(defines + length, sizeof defines - (size_t)length, "\n");
     nook_program unrolled;
-    nook_result result = nook_program_raster(renderer->gpu, "shaders/render/fullscreen.vert.glsl",
-                                             "shaders/render/lighting.frag.glsl", defines, &unrolled);
+    nook_result result =
+        nook_program_raster(renderer->gpu, vertex, "shaders/render/lighting.frag.glsl", defines, &unrolled);
     return result == NOOK_OK ? unrolled : program;
 }
 

@@ -51,14 +51,14 @@ static void expose(const float colour[3], float exposure, float out[4])
         out[i] = colour[i] * exposure;
 }
 
-static void point_light(const nook_point_light *light, const double eye[3], float exposure, float position_range[4],
+static void point_light(const nook_point_light *light, const double eye[3], float exposure, float position_fade[4],
                         float colour_inner[4], float direction_outer[4])
 {
     for (int i = 0; i < 3; i++) {
-        position_range[i] = (float)(light->position[i] - eye[i]);
+        position_fade[i] = (float)(light->position[i] - eye[i]);
         direction_outer[i] = (float)light->direction[i];
     }
-    position_range[3] = light->range;
+    position_fade[3] = light->range > 0.0f ? 1.0f / (light->range * light->range) : 0.0f;
     expose(light->colour, exposure, colour_inner);
     colour_inner[3] = light->cos_inner;
     direction_outer[3] = light->cos_outer;
@@ -83,7 +83,7 @@ void nook_uniforms_lights(nook_renderer *renderer, const nook_frame *frame)
     double eye[3];
     nook_camera_position(&frame->camera, eye);
     for (uint32_t i = 0; i < lights->point_count; i++)
-        point_light(&lights->points[i], eye, lights->exposure, block.points[i].position_range,
+        point_light(&lights->points[i], eye, lights->exposure, block.points[i].position_fade,
                     block.points[i].colour_inner, block.points[i].direction_outer);
     nook_buffer_update(renderer->gpu, renderer->light_uniforms, 0, &block, sizeof block);
 }

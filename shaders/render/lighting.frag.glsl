@@ -10,13 +10,12 @@ layout(location = 0) out vec4 result;
 
 void main()
 {
-    vec3 ray = relative_ray(gl_FragCoord.xy);
     float depth = read_pixel(depth_texture).r;
     vec3 radiance;
     if (depth == 0.0) {
-        radiance = sky_radiance(normalize(ray));
+        radiance = sky_radiance(normalize(pixel_ray()));
     } else {
-        Lit s = read_surface(ray, depth);
+        Lit s = read_surface(depth);
         bool unlit = read_pixel(material_texture).a > 0.5;
         radiance = read_pixel(emissive_texture).rgb + (unlit ? s.base_colour : shade(s));
     }

@@ -14,30 +14,53 @@ struct Lit {
     float visibility; // of the sky: ambient occlusion * occlusion map
 };
 
-// GGX with height-correlated Smith and Schlick, plus Lambert below it; times the cosine.
-vec3 reflect_light(Lit s, vec3 view, vec3 to_light)
+// How much light of a direction goes to the viewer, by the colour that it takes on: Lambert's and, of the highlight, that of a mirror
+// seen head on and none.
+struct Reflected {
+    vec3 diffuse, mirror, white;
+};
+
+// What of a surface reflects the same light for every direction of it.
+struct Reflector {
+    vec3 view; // unit, to the viewer
+    float n_v, seen; // cosine; the same, never 0
+    float square; // of alpha
+    float root; // of Smith's term
+};
+
+Reflector make_reflector(Lit s, vec3 view)
 {
-    float n_l = dot(s.normal, to_light);
-    if (n_l <= 0.0)
-        return vec3(0.0);
-    vec3 h = normalize(view + to_light);
-    float n_v = max(dot(s.normal, view), 1e-4), n_h = clamp(dot(s.normal, h), 0.0, 1.0);
-    float alpha = s.roughness * s.roughness, square = alpha * alpha;
-    float d = n_h * n_h * (square - 1.0) + 1.0;
-    float smith = n_l * sqrt(n_v * n_v * (1.0 - square) + square) + n_v * sqrt(n_l * n_l * (1.0 - square) + square);
-    float specular = square / (PI * d * d) * 0.5 / max(smith, 1e-6);
-    float away = 1.0 - clamp(dot(view, h), 0.0, 1.0), fifth = away * away * away * away * away;
-    vec3 f0 = mix(vec3(0.04), s.base_colour, s.metallic);
-    vec3 fresnel = f0 + (1.0 - f0) * fifth;
-    vec3 diffuse = s.base_colour * ((1.0 - s.metallic) / PI) * (1.0 - (0.04 + 0.96 * fifth));
-    return (diffuse + fresnel * specular) * n_l;
+    Reflector r;
+    float alpha = s.roughness * s.roughness;
+    r.view = view;
+    r.n_v = dot(s.normal, view);
+    r.seen = max(r.n_v, 1e-4);
+    r.square = alpha * alpha;
+    r.root = sqrt(r.seen * r.seen * (1.0 - r.square) + r.square);
+    return r;
+}
+
+// Adds light of a direction: GGX with height-correlated Smith and Schlick, plus Lambert below it. The half vector h is as long as
+// sqrt(2 + 2 v.l) before it is unit: n.h and v.h come of that, and the squares of its length end in one division.
+void reflect_light(inout Reflected sum, vec3 colour, float intensity, Reflector r, float n_l, float v_l)
+{
+    float lit = max(n_l, 0.0), length_square = max(2.0 + 2.0 * v_l, 0.0), n_h = max(r.n_v + lit, 0.0);
+    float d = max(length_square - (1.0 - r.square) * (n_h * n_h), r.square * length_square); // n.h is at most 1
+    float smith = lit * r.root + r.seen * sqrt(lit * lit * (1.0 - r.square) + r.square);
+    float specular = (0.5 / PI) * r.square * (length_square * length_square) / max(d * d * smith, 1e-30);
+    float away = 1.0 - min(0.5 * sqrt(length_square), 1.0), two = away * away, fifth = two * two * away;
+    float arrives = intensity * lit, shines = arrives * specular;
+    sum.diffuse += colour * (arrives - arrives * fifth);
+    sum.mirror += colour * (shines - shines * fifth);
+    sum.white += colour * (shines * fifth);
 }
 
 // Fades light where the triangle turns away but its smooth normal does not yet. Slowly: a hard end at the triangle's own
 // horizon would show the facets of coarse curved meshes.
 float terminator(Lit s, vec3 to_light)
 {
-    return smoothstep(-0.25, 0.0, dot(s.geometric_normal, to_light));
+    float part = clamp(dot(s.geometric_normal, to_light) * 4.0 + 1.0, 0.0, 1.0);
+    return part * part * (3.0 - 2.0 * part);
 }
 
 float sun_arrives(Lit s)
@@ -73,40 +96,37 @@ vec3 ambient_light(Lit s, vec3 view)
                specular_visibility(s.visibility, s.roughness, n_v);
 }
 
-vec3 light_from(PointLight light, Lit s, vec3 view)
+void add_point(inout Reflected sum, PointLight light, Lit s, Reflector r)
 {
-    vec3 to_light, irradiance = point_light(light, s.relative, to_light);
+    vec3 to_light;
+    float intensity = point_light(light, s.relative, to_light) * terminator(s, to_light);
 #ifndef EACH_POINT
-    irradiance *= spot_factor(light, to_light);
+    intensity *= spot_factor(light, to_light);
 #endif
-    if (irradiance == vec3(0.0))
-        return vec3(0.0);
-    return irradiance * reflect_light(s, view, to_light) * terminator(s, to_light);
+    reflect_light(sum, light.colour_inner.rgb, intensity, r, dot(s.normal, to_light), dot(r.view, to_light));
 }
 
 // EACH_POINT(f), where it is defined, calls f(0); f(1); ... for lights of a known number without a spot: software GL reads what
 // stands at a constant place once for all pixels, and else for each.
-vec3 light_from_points(Lit s, vec3 view)
+void add_points(inout Reflected sum, Lit s, Reflector r)
 {
-    vec3 sum = vec3(0.0);
 #ifdef EACH_POINT
-#define ADD(i) sum += light_from(lights.points[i], s, view)
+#define ADD(i) add_point(sum, light_at(uint(i)), s, r)
     EACH_POINT(ADD)
 #else
     for (uint i = 0u; i < lights.point_count.x; i++)
-        sum += light_from(lights.points[i], s, view);
+        add_point(sum, light_at(i), s, r);
 #endif
-    return sum;
 }
 
 vec3 shade(Lit s)
 {
     s.roughness = max(s.roughness, 0.045); // below this the highlight of a point light is under a pixel and flickers
-    vec3 view = normalize(-s.relative);
-    vec3 sum = ambient_light(s, view);
-    vec3 to_light = lights.sun_direction.xyz;
-    vec3 sun = reflect_light(s, view, to_light) * lights.sun_colour.rgb;
-    if (sun != vec3(0.0))
-        sum += sun * sun_arrives(s);
-    return sum + light_from_points(s, view);
+    vec3 view = normalize(-s.relative), to_light = lights.sun_direction.xyz;
+    Reflector r = make_reflector(s, view);
+    Reflected sum = Reflected(vec3(0.0), vec3(0.0), vec3(0.0));
+    reflect_light(sum, lights.sun_colour.rgb, sun_arrives(s), r, dot(s.normal, to_light), dot(view, to_light));
+    add_points(sum, s, r);
+    vec3 diffuse = s.base_colour * ((1.0 - s.metallic) * (0.96 / PI)); // what is not reflected above, of 1.5 as glTF has it
+    return ambient_light(s, view) + diffuse * sum.diffuse + mix(vec3(0.04), s.base_colour, s.metallic) * sum.mirror + sum.white;
 }

@@ -1,5 +1,6 @@
 // The filtered shadow of the sun. Needs frame.glsl, lights.glsl. Binding: texture 5, depth along the sun's direction, unfiltered.
 #pragma once
+#include "render/sun_map.glsl"
 layout(binding = 5) uniform sampler2D shadow_map;
 
 // Weights of a cubic B-spline at the four texels around a point; f: its place between the middle two.
@@ -72,21 +73,19 @@ Gathered filter_shadow(Receiver receiver)
 // There must be a sun.
 float sun_shadow(vec3 relative, vec3 geometric)
 {
-    mat3 rows = transpose(mat3(frame.shadow_from_relative));
-    float depth_per_metre = length(rows[2]);
-    float texel = frame.shadow_texel * depth_per_metre; // a texel's width as depth
+    const SunMap map = sun_map();
+    float texel = map.axis_z.w;
     // The normal in the sun's axes; z away from the sun, so a lit surface has z < 0.
-    vec3 normal = vec3(dot(normalize(rows[0]), geometric), dot(normalize(rows[1]), geometric),
-                       dot(rows[2], geometric) / depth_per_metre);
+    vec3 normal = vec3(dot(map.axis_x.xyz, geometric), dot(map.axis_y.xyz, geometric), dot(map.axis_z.xyz, geometric));
     float cosine = max(-normal.z, 0.02);
     // Near grazing light the point is lifted off its triangle, about to where the smooth surface would be that the
     // triangles stand for: a facet of a coarse curved mesh must not shadow the next.
     float grazing = 1.0 - clamp(-normal.z * 4.0, 0.0, 1.0);
     float lift = 6.0 * grazing * grazing; // texels
-    vec3 lifted = relative + geometric * (lift * frame.shadow_texel);
+    vec4 lifted = vec4(relative + geometric * (lift * map.axis_x.w), 1.0);
 
     Receiver receiver;
-    receiver.position = (frame.shadow_from_relative * vec4(lifted, 1.0)).xyz;
+    receiver.position = vec3(dot(map.x, lifted), dot(map.y, lifted), dot(map.z, lifted));
     if (any(lessThan(receiver.position, vec3(0.0))) || any(greaterThan(receiver.position, vec3(1.0))))
         return 1.0;
     receiver.position.xy *= float(textureSize(shadow_map, 0).x);

@@ -34,7 +34,7 @@ vec3 shadow_map_view(vec2 pixel)
 
 vec3 buffer_view(float depth)
 {
-    Lit s = read_surface(relative_ray(gl_FragCoord.xy), depth);
+    Lit s = read_surface(depth);
     switch (view) {
     case VIEW_BASE_COLOUR:
         return srgb_encode(s.base_colour);

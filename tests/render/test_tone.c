@@ -7,6 +7,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -119,12 +120,30 @@ static void test_lights_written_out_light_as_those_of_a_loop(void **state)
     test_picture_destroy(&picture);
 }
 
+/* Or the loop, which shows the same, would stand in for it unseen. */
+static void test_lights_handed_on_by_vertices_compile_for_every_number_that_is_written_out(void **state)
+{
+    for (unsigned count = 0; count <= 8; count++) {
+        char defines[256];
+        int length =
+            snprintf(defines, sizeof defines, "#define TO_IMAGE\n#define BY_VERTEX %u\n#define EACH_POINT(f)", count);
+        for (unsigned i = 0; i < count; i++)
+            length += snprintf(defines + length, sizeof defines - (size_t)length, " f(%u);", i);
+        snprintf(defines + length, sizeof defines - (size_t)length, "\n");
+        nook_program program;
+        assert_int_equal(nook_program_raster(test_gpu_of(state), "shaders/render/lighting.vert.glsl",
+                                             "shaders/render/lighting.frag.glsl", defines, &program),
+                         NOOK_OK);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_srgb_is_never_off_by_a_quarter_of_a_step_of_eight_bits),
         cmocka_unit_test(test_light_and_tone_in_one_pass_are_those_of_two),
         cmocka_unit_test(test_lights_written_out_light_as_those_of_a_loop),
+        cmocka_unit_test(test_lights_handed_on_by_vertices_compile_for_every_number_that_is_written_out),
     };
     return cmocka_run_group_tests(tests, test_gpu_setup, test_gpu_teardown);
 }
