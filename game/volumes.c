@@ -393,27 +393,51 @@ bool nook_volumes_holds_blended(nook_volume_kind kind)
     return kind == NOOK_VOLUME_DENSITY || kind == NOOK_VOLUME_SURFEL;
 }
 
-static nook_result bake_kind(const nook_volumes_desc *desc, nook_scene_volume *volume, nook_volume_kind kind,
-                             bool *warned)
+/* What a kind is made of. @param out_triangles  of the volume; none: there is nothing to bake @param out_alphas  of them */
+static void select_triangles(const nook_scene_volume *volume, nook_volume_kind kind, nook_triangles *out_triangles,
+                             nook_alphas *out_alphas)
 {
-    nook_triangles triangles = { .positions = volume->positions,
-                                 .vertex_count = volume->vertex_count,
-                                 .indices = volume->indices,
-                                 .index_count = volume->index_count };
+    *out_triangles = (nook_triangles){ .positions = volume->positions,
+                                       .vertex_count = volume->vertex_count,
+                                       .indices = volume->indices,
+                                       .index_count = volume->index_count };
     if (nook_volumes_holds_blended(kind)) {
-        triangles.vertex_count += volume->blended_vertex_count;
-        triangles.index_count += volume->blended_index_count;
+        out_triangles->vertex_count += volume->blended_vertex_count;
+        out_triangles->index_count += volume->blended_index_count;
     }
+    *out_alphas = (nook_alphas){ volume->parts, volume->part_count, volume->uvs };
+    while (out_alphas->part_count > 0 &&
+           volume->parts[out_alphas->part_count - 1].first_index >= out_triangles->index_count)
+        out_alphas->part_count--; /* blended ones, where the kind does not hold them */
+}
+
+/* The volume of that name in the same place of the scene as it was. @return NULL: there was none */
+static const nook_scene_volume *find_before(const nook_volumes_desc *desc, const nook_scene_volume *volume,
+                                            uint32_t place)
+{
+    const nook_scene_volumes *before = desc->before;
+    if (!before || place >= before->volume_count || strcmp(before->volumes[place].name, volume->name) != 0)
+        return NULL;
+    return before->volumes[place].resolution == volume->resolution ? &before->volumes[place] : NULL;
+}
+
+static nook_result bake_kind(const nook_volumes_desc *desc, nook_scene_volume *volume, uint32_t place,
+                             nook_volume_kind kind, bool *warned)
+{
+    nook_triangles triangles, triangles_before;
+    nook_alphas alphas, alphas_before;
+    const nook_scene_volume *before = find_before(desc, volume, place);
+    select_triangles(volume, kind, &triangles, &alphas);
+    select_triangles(before ? before : volume, kind, &triangles_before, &alphas_before);
     if (triangles.index_count == 0)
         return NOOK_OK;
-    nook_alphas alphas = { volume->parts, volume->part_count, volume->uvs };
-    while (alphas.part_count > 0 && volume->parts[alphas.part_count - 1].first_index >= triangles.index_count)
-        alphas.part_count--; /* blended ones, where the kind does not hold them */
     const nook_voxelize_desc how = {
         .resolution = volume->resolution, .threads = desc->threads, .kind = kind, .alphas = &alphas
     };
+    const nook_bake_before older = { &triangles_before, &alphas_before };
     nook_bake *bake = &volume->bakes[kind];
-    nook_result result = nook_bake_cached(desc->cache_dir, volume->name, &triangles, &how, bake);
+    nook_result result = nook_bake_cached_again(desc->cache_dir, volume->name, &triangles, &how,
+                                                before && triangles_before.index_count ? &older : NULL, bake);
     return result == NOOK_OK ? check_kept(desc, bake, warned) : result;
 }
 
@@ -425,7 +449,7 @@ static nook_result bake_all(const nook_volumes_desc *desc, nook_scene_volumes *v
         nook_result result = NOOK_OK;
         for (int kind = 0; kind < NOOK_VOLUME_KINDS && volume->resolution > 0 && result == NOOK_OK; kind++)
             if (volumes->kinds & NOOK_VOLUME_BIT(kind))
-                result = bake_kind(desc, volume, (nook_volume_kind)kind, &warned);
+                result = bake_kind(desc, volume, i, (nook_volume_kind)kind, &warned);
         if (result != NOOK_OK)
             return result;
         if (desc->progress)

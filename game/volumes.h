@@ -91,6 +91,9 @@ typedef struct nook_volumes_desc {
     uint32_t kinds;         /**< Of volumes: bits NOOK_VOLUME_BIT; 0: binary ones. */
     uint32_t threads;       /**< 0: all cores. */
     nook_volumes_plan plan; /**< Zero: nothing is planned. */
+    /** Of the scene as it was before it was edited, from nook_volumes_collect: what has not changed is taken from its volumes in the cache.
+        NULL: nothing is known. Borrowed. */
+    const nook_scene_volumes *before;
     /** Called after each volume; NULL for none. `index` runs from 0 to count - 1. */
     void (*progress)(void *user, const nook_scene_volume *done, uint32_t index, uint32_t count);
     void *user;

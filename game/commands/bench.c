@@ -13,6 +13,7 @@ static const nook_command benches[] = {
       nook_bench_run_occluders },
     { "reload", "how soon a saved shader is in the picture", nook_bench_run_reload },
     { "physics", "a step of a level's rigid bodies: asleep, awake, thrown about; rays", nook_bench_run_physics },
+    { "bake", "surfels of up to 100 million triangles at four resolutions, and after an edit", nook_bench_run_bake },
     { "play", "every frame of a recorded game, as it is played", nook_bench_run_play },
 };
 

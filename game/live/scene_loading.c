@@ -54,22 +54,36 @@ static nook_result read_scene(nook_scene_loading *load)
     return result == NOOK_OK ? nook_level_scene_load(loaded->level, NULL, &loaded->scene) : result;
 }
 
+/* A plan may make other volumes of the same scene. @return NULL: nothing is to be had of the scene that is shown */
+static const nook_scene_volumes *collect_shown(const nook_scene_loading *load, const nook_volumes_desc *desc,
+                                               nook_scene_volumes *out)
+{
+    if (!load->desc.shown || !load->desc.cache || !(load->desc.kinds & NOOK_VOLUME_BIT(NOOK_VOLUME_SURFEL)) ||
+        load->desc.plan.params.mode != NOOK_PLAN_OFF)
+        return NULL;
+    return nook_volumes_collect(load->desc.shown, desc, out) == NOOK_OK ? out : NULL;
+}
+
 static void *run(void *user)
 {
     nook_scene_loading *load = user;
     unsigned cores = nook_core_count();
-    const nook_volumes_desc volumes = { .resolution = load->desc.resolution,
-                                        .kinds = load->desc.kinds,
-                                        .r_max = load->desc.r_max,
-                                        .cache_dir = load->desc.cache,
-                                        .plan = load->desc.plan,
-                                        .threads = cores > 1 ? cores - 1 : 1 }; /* one is left for the picture */
+    nook_scene_volumes shown = { 0 };
+    nook_volumes_desc volumes = { .resolution = load->desc.resolution,
+                                  .kinds = load->desc.kinds,
+                                  .r_max = load->desc.r_max,
+                                  .cache_dir = load->desc.cache,
+                                  .plan = load->desc.plan,
+                                  .threads = cores > 1 ? cores - 1 : 1 }; /* one is left for the picture */
     nook_log_keep_errors(load->why, sizeof load->why);
     load->result = read_scene(load);
     if (load->result == NOOK_OK)
         load->result = check_images(load);
-    if (load->result == NOOK_OK)
+    if (load->result == NOOK_OK) {
+        volumes.before = collect_shown(load, &volumes, &shown);
         load->result = nook_volumes_bake(load->loaded.scene, &volumes, &load->loaded.volumes);
+        nook_volumes_free(&shown);
+    }
     atomic_store(&load->done, true);
     return NULL;
 }

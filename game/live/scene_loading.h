@@ -10,13 +10,15 @@
 typedef struct nook_scene_loading nook_scene_loading;
 
 typedef struct nook_scene_loading_desc {
-    const char *path;         /**< .level, .gltf or .glb. */
-    bool is_level;            /**< The scene is joined of what a level names. */
-    nook_moment moment;       /**< The pose of a scene that is one file. */
-    uint32_t resolution;      /**< As nook_game_world_desc. */
-    double r_max;             /**< The same. */
-    uint32_t kinds;           /**< Of volumes: bits NOOK_VOLUME_BIT; 0: binary ones. */
-    const char *cache;        /**< The same; volumes of meshes that are as they were come from it. */
+    const char *path;    /**< .level, .gltf or .glb. */
+    bool is_level;       /**< The scene is joined of what a level names. */
+    nook_moment moment;  /**< The pose of a scene that is one file. */
+    uint32_t resolution; /**< As nook_game_world_desc. */
+    double r_max;        /**< The same. */
+    uint32_t kinds;      /**< Of volumes: bits NOOK_VOLUME_BIT; 0: binary ones. */
+    const char *cache;   /**< The same; volumes of meshes that are as they were come from it. */
+    /** The scene that is shown: surfels are made anew only where meshes differ from its. Constant until the load is finished; NULL: none. */
+    const nook_scene *shown;
     nook_volumes_plan plan;   /**< Zero: nothing is planned. */
     uint32_t unreadable_most; /**< Images that may be unreadable: those that are so in the scene that is shown. */
 } nook_scene_loading_desc;

@@ -223,6 +223,7 @@ static void start_load(nook_scene_reload *self)
                                            .r_max = self->volumes.r_max,
                                            .kinds = nook_game_world_kinds(self->stage->world),
                                            .cache = self->volumes.cache,
+                                           .shown = self->stage->scene,
                                            .plan = { self->stage->plan, self->stage->plays,
                                                      nook_game_world_multiplies(self->stage->ao) },
                                            .unreadable_most = nook_scene_unreadable_images(self->stage->scene) };

@@ -10,6 +10,15 @@ static uint64_t hash_texels(const nook_alpha_part *part, uint64_t hash)
     return XXH3_64bits_withSeed(part->texels, (size_t)part->width * part->height * size, hash);
 }
 
+uint64_t nook_alpha_part_hash(const nook_alpha_part *part, uint64_t seed)
+{
+    const float numbers[] = { part->alpha, part->masked ? part->cutoff : -1.0f };
+    const uint64_t size[] = { part->texels ? part->width : 0, part->texels ? part->height : 0 };
+    uint64_t hash = XXH3_64bits_withSeed(numbers, sizeof numbers, seed);
+    hash = XXH3_64bits_withSeed(size, sizeof size, hash);
+    return part->texels ? hash_texels(part, hash) : hash;
+}
+
 uint64_t nook_alphas_hash(const nook_triangles *triangles, const nook_alphas *alphas, uint64_t seed)
 {
     uint64_t hash = seed;

@@ -52,17 +52,58 @@ static bool read_cached(const char *path, const char *name, uint64_t hash, nook_
     return true;
 }
 
-static nook_result bake_now(const nook_triangles *triangles, const nook_voxelize_desc *desc, nook_bake *out_bake)
+static void make_path(const char *cache_dir, uint64_t hash, char out[PATH_CAPACITY])
+{
+    char file_name[32];
+    snprintf(file_name, sizeof file_name, "%016" PRIx64 ".nkv", hash);
+    nook_path_join(out, PATH_CAPACITY, cache_dir, file_name);
+}
+
+/* @return false: bake all of it */
+static bool read_before(const char *cache_dir, const char *name, const nook_voxelize_desc *desc,
+                        const nook_bake_before *before, nook_volume *out_volume)
+{
+    char path[PATH_CAPACITY];
+    nook_bake cached;
+    nook_voxelize_desc then = *desc;
+    then.alphas = before->alphas;
+    uint64_t hash = nook_voxelize_hash(before->triangles, &then);
+    make_path(cache_dir, hash, path);
+    if (!read_cached(path, name, hash, &cached))
+        return false;
+    bool read = nook_volume_decode(path, cached.bytes, cached.size, out_volume) == NOOK_OK;
+    nook_bake_free(&cached);
+    return read;
+}
+
+/* @param before  NULL: all is made */
+static nook_result voxelize(const char *cache_dir, const char *name, const nook_triangles *triangles,
+                            const nook_voxelize_desc *desc, const nook_bake_before *before, nook_volume *out_volume,
+                            size_t *out_bricks)
 {
     nook_volume volume;
-    nook_result result = nook_voxelize(triangles, desc, &volume);
+    *out_bricks = 0;
+    if (!before || desc->kind != NOOK_VOLUME_SURFEL || !read_before(cache_dir, name, desc, before, &volume))
+        return nook_voxelize(triangles, desc, out_volume);
+    const nook_voxelize_before older = { before->triangles, before->alphas, &volume };
+    nook_result result = nook_voxelize_again(triangles, desc, &older, out_volume, out_bricks);
+    nook_volume_free(&volume);
+    return result;
+}
+
+static nook_result bake_now(const char *cache_dir, const char *name, const nook_triangles *triangles,
+                            const nook_voxelize_desc *desc, const nook_bake_before *before, nook_bake *out_bake)
+{
+    nook_volume volume;
+    size_t bricks;
+    nook_result result = voxelize(cache_dir, name, triangles, desc, cache_dir ? before : NULL, &volume, &bricks);
     if (result != NOOK_OK)
         return result;
     void *bytes;
     size_t size;
     result = nook_volume_encode(&volume, &bytes, &size);
     if (result == NOOK_OK)
-        *out_bake = (nook_bake){ .bytes = bytes, .size = size, .info = volume.info };
+        *out_bake = (nook_bake){ .bytes = bytes, .size = size, .info = volume.info, .bricks = bricks };
     nook_volume_free(&volume);
     return result;
 }
@@ -88,20 +129,23 @@ static nook_result check_arguments(const nook_triangles *triangles)
 nook_result nook_bake_cached(const char *cache_dir, const char *name, const nook_triangles *triangles,
                              const nook_voxelize_desc *desc, nook_bake *out_bake)
 {
+    return nook_bake_cached_again(cache_dir, name, triangles, desc, NULL, out_bake);
+}
+
+nook_result nook_bake_cached_again(const char *cache_dir, const char *name, const nook_triangles *triangles,
+                                   const nook_voxelize_desc *desc, const nook_bake_before *before, nook_bake *out_bake)
+{
     nook_result result = check_arguments(triangles);
     if (result != NOOK_OK)
         return result;
     double start = nook_clock_ms();
     uint64_t hash = nook_voxelize_hash(triangles, desc);
     char path[PATH_CAPACITY] = "";
-    if (cache_dir) {
-        char file_name[32];
-        snprintf(file_name, sizeof file_name, "%016" PRIx64 ".nkv", hash);
-        nook_path_join(path, sizeof path, cache_dir, file_name);
-    }
+    if (cache_dir)
+        make_path(cache_dir, hash, path);
     nook_bake bake;
     if (!cache_dir || !read_cached(path, name, hash, &bake)) {
-        result = bake_now(triangles, desc, &bake);
+        result = bake_now(cache_dir, name, triangles, desc, before, &bake);
         if (result != NOOK_OK)
             return result;
         bake.ms = nook_clock_ms() - start;

@@ -16,6 +16,7 @@ typedef struct nook_bake {
     nook_volume_info info;
     double ms;      /**< Wall time of voxelising and compressing, or of reading and checking. */
     bool cache_hit; /**< Nothing was voxelised. */
+    size_t bricks;  /**< That were made anew in an older volume; 0: all were, or none. */
     int keep_error; /**< The errno that says why it is not in the cache now; 0: it is, or there is no cache. */
 } nook_bake;
 
@@ -31,6 +32,19 @@ void nook_bake_free(nook_bake *bake); /**< NULL and zeroed bakes are allowed. */
  */
 nook_result nook_bake_cached(const char *cache_dir, const char *name, const nook_triangles *triangles,
                              const nook_voxelize_desc *desc, nook_bake *out_bake);
+
+/** What a soup was before it was edited. Borrowed. */
+typedef struct nook_bake_before {
+    const nook_triangles *triangles;
+    const nook_alphas *alphas; /**< NULL: all was opaque. */
+} nook_bake_before;
+
+/**
+ * The same, and sooner where the cache holds the volume of the soup as it was before: then nook_voxelize_again makes the new one of it.
+ * @param before  NULL: nothing is known
+ */
+nook_result nook_bake_cached_again(const char *cache_dir, const char *name, const nook_triangles *triangles,
+                                   const nook_voxelize_desc *desc, const nook_bake_before *before, nook_bake *out_bake);
 
 #ifdef __cplusplus
 }

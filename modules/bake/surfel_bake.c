@@ -4,6 +4,7 @@
 #include "modules/bake/brick_grid.h"
 #include "modules/bake/surfel_cut.h"
 #include "modules/bake/surfel_fit.h"
+#include <assert.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,17 +15,13 @@ typedef struct slab {
     size_t count, capacity;
 } slab;
 
-/* What lies in the slab that a worker is at. */
-typedef struct worker_bins {
-    nook_surfel_bins *bins;
-} worker_bins;
-
 typedef struct bake {
     nook_surfel_source source;
     uint8_t (*reach)[2]; /* first and last slab of each triangle; a first above the last: it has none */
     nook_brick *bricks;
     slab *slabs;
-    worker_bins *workers;
+    nook_surfel_bins **bins;          /* of each worker, for what it is at */
+    const nook_surfel_before *before; /* NULL: all is made */
     atomic_bool out_of_memory;
 } bake;
 
@@ -44,25 +41,30 @@ static void find_reach(void *user, size_t first, size_t last, unsigned worker)
 
 /* ---- Slabs ------------------------------------------------------------------------------------------------------ */
 
-static bool append_surfel(slab *s, const nook_surfel *surfel)
+static bool reserve(slab *s, size_t count)
 {
-    if (s->count == s->capacity) {
-        size_t capacity = s->capacity ? s->capacity + s->capacity / 2 : 256;
+    if (count > s->capacity) {
+        size_t capacity = count > s->capacity + s->capacity / 2 ? count + 256 : s->capacity + s->capacity / 2;
         nook_surfel *grown = realloc(s->surfels, capacity * sizeof *grown);
         if (!grown)
             return false;
         s->surfels = grown;
         s->capacity = capacity;
     }
-    s->surfels[s->count++] = *surfel;
     return true;
 }
 
-/* Sorted bins to surfels and masks. */
+static size_t bricks_of_slab(const bake *b)
+{
+    return (size_t)b->source.counts[0] * b->source.counts[1];
+}
+
+/* Sorted bins to surfels and masks. @return false when there is no memory */
 static bool fit_slab(bake *b, const nook_surfel_bins *bins, size_t count, size_t slab_index)
 {
     nook_surfel_bin voxel_bins[NOOK_SURFEL_BINS_PER_VOXEL];
-    nook_brick *bricks = b->bricks + slab_index * b->source.counts[0] * b->source.counts[1];
+    nook_brick *bricks = b->bricks + slab_index * bricks_of_slab(b);
+    slab *s = &b->slabs[slab_index];
     for (size_t i = 0; i < count;) {
         uint32_t voxel = nook_surfel_bins_voxel(bins, i);
         size_t held = 0;
@@ -71,60 +73,124 @@ static bool fit_slab(bake *b, const nook_surfel_bins *bins, size_t count, size_t
         nook_surfel surfel;
         if (!nook_surfel_fit(voxel_bins, held, &surfel))
             continue;
-        if (!append_surfel(&b->slabs[slab_index], &surfel))
+        if (!reserve(s, s->count + 1))
             return false;
+        s->surfels[s->count++] = surfel;
         bricks[voxel >> 6].mask[voxel >> 5 & 1] |= 1u << (voxel & 31);
     }
     return true;
 }
 
-/* @return false when there is no memory */
-static bool bake_slab(bake *b, size_t slab_index, nook_surfel_bins *bins)
+/* Bricks whose bins are too many for the memory are made in two halves, one after the other: the same bits. @return NOOK_E_MEMORY */
+static nook_result bake_part(bake *b, const nook_surfel_part *part, nook_surfel_bins *bins)
 {
-    size_t triangle_count = b->source.triangles->index_count / 3;
+    size_t triangle_count = b->source.triangles->index_count / 3, slab_index = (size_t)part->slab;
+    nook_result result = NOOK_OK;
     nook_surfel_bins_clear(bins);
-    for (size_t t = 0; t < triangle_count; t++)
-        if (b->reach[t][0] <= slab_index && slab_index <= b->reach[t][1] &&
-            nook_surfel_cut(&b->source, t, (int32_t)slab_index, bins) != NOOK_OK)
-            return false;
-    size_t count = nook_surfel_bins_sort(bins);
-    return count != SIZE_MAX && fit_slab(b, bins, count, slab_index);
+    for (size_t t = 0; t < triangle_count && result == NOOK_OK; t++)
+        if (b->reach[t][0] <= slab_index && slab_index <= b->reach[t][1])
+            result = nook_surfel_cut(&b->source, t, part, bins);
+    if (result == NOOK_E_RANGE) {
+        nook_surfel_part low = *part, high = *part;
+        assert(part->end - part->first > 1);
+        low.end = high.first = part->first + (part->end - part->first) / 2;
+        result = bake_part(b, &low, bins);
+        return result == NOOK_OK ? bake_part(b, &high, bins) : result;
+    }
+    size_t count = result == NOOK_OK ? nook_surfel_bins_sort(bins) : SIZE_MAX;
+    return count != SIZE_MAX && fit_slab(b, bins, count, slab_index) ? NOOK_OK : NOOK_E_MEMORY;
+}
+
+static size_t count_bits(uint32_t bits)
+{
+    size_t count = 0;
+    for (; bits; bits &= bits - 1)
+        count++;
+    return count;
+}
+
+/* Puts the surfels of bricks that stay between those of the others, which were made. @return NOOK_E_MEMORY */
+static nook_result keep_bricks(bake *b, size_t slab_index)
+{
+    const size_t count = bricks_of_slab(b), first = slab_index * count;
+    const nook_volume *before = b->before->volume;
+    slab made = b->slabs[slab_index], joined = { .surfels = NULL };
+    size_t taken = 0;
+    bool whole = true;
+    for (size_t i = first; i < first + count && whole; i++) {
+        bool changed = b->before->changed[i];
+        const nook_brick *from = changed ? &b->bricks[i] : &before->bricks[i];
+        size_t surfels = count_bits(from->mask[0]) + count_bits(from->mask[1]);
+        memcpy(b->bricks[i].mask, from->mask, sizeof from->mask);
+        whole = surfels == 0 || reserve(&joined, joined.count + surfels);
+        if (whole && surfels)
+            memcpy(joined.surfels + joined.count, changed ? made.surfels + taken : before->surfels + from->first_surfel,
+                   surfels * sizeof *joined.surfels);
+        joined.count += surfels;
+        taken += changed ? surfels : 0;
+    }
+    free(made.surfels);
+    b->slabs[slab_index] = joined;
+    return whole ? NOOK_OK : NOOK_E_MEMORY;
+}
+
+static nook_result bake_slab(bake *b, size_t slab_index, nook_surfel_bins *bins)
+{
+    const size_t count = bricks_of_slab(b);
+    nook_surfel_part part = { .slab = (int32_t)slab_index, .end = (uint32_t)count };
+    if (!b->before)
+        return bake_part(b, &part, bins);
+    part.wanted = b->before->changed + slab_index * count;
+    while (part.first < part.end && !part.wanted[part.first])
+        part.first++;
+    while (part.first < part.end && !part.wanted[part.end - 1])
+        part.end--;
+    nook_result result = part.first < part.end ? bake_part(b, &part, bins) : NOOK_OK;
+    return result == NOOK_OK ? keep_bricks(b, slab_index) : result;
 }
 
 static void bake_slabs(void *user, size_t first, size_t last, unsigned worker)
 {
     bake *b = user;
-    bool done = true;
-    for (size_t s = first; s < last && done; s++)
-        done = bake_slab(b, s, b->workers[worker].bins);
-    if (!done)
+    nook_result result = NOOK_OK;
+    for (size_t s = first; s < last && result == NOOK_OK; s++)
+        result = bake_slab(b, s, b->bins[worker]);
+    if (result != NOOK_OK)
         atomic_store(&b->out_of_memory, true);
 }
 
 /* ---- Putting it together ---------------------------------------------------------------------------------------- */
 
-static bool allocate(bake *b, unsigned workers)
+/* A brick alone must fit. */
+static uint32_t most_bins(size_t memory)
+{
+    const size_t least = (size_t)NOOK_BRICK_SIDE * NOOK_BRICK_SIDE * NOOK_BRICK_SIDE * NOOK_SURFEL_BINS_PER_VOXEL;
+    size_t bins = (memory ? memory : NOOK_VOXELIZE_MEMORY) / NOOK_SURFEL_BIN_BYTES;
+    return (uint32_t)(bins < least ? least : bins < UINT32_MAX / 4 ? bins : UINT32_MAX / 4);
+}
+
+static bool allocate(bake *b, unsigned workers, uint32_t bins)
 {
     size_t triangles = b->source.triangles->index_count / 3;
     b->reach = malloc(triangles * sizeof *b->reach);
     b->bricks = calloc((size_t)b->source.counts[0] * b->source.counts[1] * b->source.counts[2], sizeof *b->bricks);
     b->slabs = calloc(b->source.counts[2], sizeof *b->slabs);
-    b->workers = calloc(workers, sizeof *b->workers);
-    bool made = b->reach && b->bricks && b->slabs && b->workers;
+    b->bins = calloc(workers, sizeof *b->bins);
+    bool made = b->reach && b->bricks && b->slabs && b->bins;
     for (unsigned i = 0; made && i < workers; i++) {
-        b->workers[i].bins = nook_surfel_bins_create();
-        made = b->workers[i].bins != NULL;
+        b->bins[i] = nook_surfel_bins_create(bins);
+        made = b->bins[i] != NULL;
     }
     return made;
 }
 
 static void release(bake *b, unsigned workers)
 {
-    for (unsigned i = 0; b->workers && i < workers; i++)
-        nook_surfel_bins_destroy(b->workers[i].bins);
+    for (unsigned i = 0; b->bins && i < workers; i++)
+        nook_surfel_bins_destroy(b->bins[i]);
     for (uint32_t s = 0; b->slabs && s < b->source.counts[2]; s++)
         free(b->slabs[s].surfels);
-    free(b->workers);
+    free(b->bins);
     free(b->slabs);
     free(b->reach);
     free(b->bricks);
@@ -148,18 +214,19 @@ static nook_surfel *join_slabs(const bake *b)
     return surfels;
 }
 
-nook_result nook_surfel_bake(const nook_triangles *triangles, const nook_alphas *alphas, unsigned threads,
-                             const nook_grid_frame *frame, nook_volume *out_volume)
+nook_result nook_surfel_bake(const nook_triangles *triangles, const nook_voxelize_desc *desc,
+                             const nook_grid_frame *frame, const nook_surfel_before *before, nook_volume *out_volume)
 {
-    nook_alpha_areas *areas = nook_alpha_areas_create(alphas);
-    bake b = { .source = { .triangles = triangles, .alphas = alphas, .areas = areas, .frame = frame } };
+    nook_alpha_areas *areas = nook_alpha_areas_create(desc->alphas);
+    bake b = { .source = { .triangles = triangles, .alphas = desc->alphas, .areas = areas, .frame = frame },
+               .before = before };
     nook_brick_counts(&(nook_volume_info){ .width = frame->size[0], .height = frame->size[1], .depth = frame->size[2] },
                       b.source.counts);
-    unsigned workers = nook_parallel_workers(b.source.counts[2], threads);
+    unsigned workers = nook_parallel_workers(b.source.counts[2], desc->threads);
     nook_surfel *surfels = NULL;
-    if (areas && allocate(&b, workers)) {
-        nook_parallel_for(triangles->index_count / 3, threads, find_reach, &b);
-        nook_parallel_for(b.source.counts[2], threads, bake_slabs, &b);
+    if (areas && allocate(&b, workers, most_bins(desc->memory))) {
+        nook_parallel_for(triangles->index_count / 3, desc->threads, find_reach, &b);
+        nook_parallel_for(b.source.counts[2], desc->threads, bake_slabs, &b);
         surfels = atomic_load(&b.out_of_memory) ? NULL : join_slabs(&b);
     }
     if (surfels) {

@@ -24,20 +24,21 @@ typedef struct entry {
 
 struct nook_surfel_bins {
     entry *entries;
-    uint32_t count, capacity;
+    uint32_t count, capacity, most;
     uint32_t *table;     /* index + 1 into entries; 0: free */
     uint32_t table_size; /* a power of two, at least twice the entries */
     uint64_t *order;     /* key << 32 | index, sorted */
     uint32_t order_capacity;
 };
 
-nook_surfel_bins *nook_surfel_bins_create(void)
+nook_surfel_bins *nook_surfel_bins_create(uint32_t most)
 {
     nook_surfel_bins *bins = calloc(1, sizeof *bins);
     if (!bins)
         return NULL;
     bins->table = calloc(TABLE_FIRST, sizeof *bins->table);
     bins->table_size = TABLE_FIRST;
+    bins->most = most;
     if (!bins->table) {
         free(bins);
         return NULL;
@@ -94,6 +95,7 @@ static int grow_table(nook_surfel_bins *bins)
 static int grow_entries(nook_surfel_bins *bins)
 {
     uint32_t capacity = bins->capacity ? bins->capacity + bins->capacity / 2 : 1024;
+    capacity = capacity < bins->most ? capacity : bins->most;
     entry *entries = realloc(bins->entries, capacity * sizeof *entries);
     if (!entries)
         return 0;
@@ -102,23 +104,28 @@ static int grow_entries(nook_surfel_bins *bins)
     return 1;
 }
 
-/* @return NULL when there is no memory */
-static entry *entry_of(nook_surfel_bins *bins, uint32_t key)
+/* @return as nook_surfel_bins_add */
+static nook_result find_entry(nook_surfel_bins *bins, uint32_t key, entry **out)
 {
     uint32_t *place = find(bins, key);
-    if (*place)
-        return &bins->entries[*place - 1];
+    if (*place) {
+        *out = &bins->entries[*place - 1];
+        return NOOK_OK;
+    }
+    if (bins->count == bins->most)
+        return NOOK_E_RANGE;
     if (bins->count == bins->capacity && !grow_entries(bins))
-        return NULL;
+        return NOOK_E_MEMORY;
     if (bins->count >= bins->table_size / 2) {
         if (!grow_table(bins))
-            return NULL;
+            return NOOK_E_MEMORY;
         place = find(bins, key);
     }
     *place = bins->count + 1;
     entry *added = &bins->entries[bins->count++];
     *added = (entry){ .key = key };
-    return added;
+    *out = added;
+    return NOOK_OK;
 }
 
 /* ---- Adding ----------------------------------------------------------------------------------------------------- */
@@ -153,9 +160,10 @@ nook_result nook_surfel_bins_add(nook_surfel_bins *bins, uint32_t voxel, const d
     const double upright[3] = { sign * normal[0], sign * normal[1], sign * normal[2] };
     double depth = nook_vector_dot(upright, moments->first) / moments->area;
     uint32_t bin = direction_of(upright, face) * DEPTHS + clamp((depth - depth_lowest) / depth_step, DEPTHS - 1);
-    entry *e = entry_of(bins, voxel << BIN_BITS | bin);
-    if (!e)
-        return NOOK_E_MEMORY;
+    entry *e;
+    nook_result result = find_entry(bins, voxel << BIN_BITS | bin, &e);
+    if (result != NOOK_OK)
+        return result;
     e->sum[0] += area;
     for (int i = 0; i < 3; i++) {
         e->sum[1 + i] += llround(upright[i] * moments->area * unit);

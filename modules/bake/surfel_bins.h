@@ -14,8 +14,8 @@
 extern "C" {
 #endif
 
-/** 48 directions x 8 depths. */
-enum { NOOK_SURFEL_BINS_PER_VOXEL = 384 };
+/** 48 directions x 8 depths; and what a bin takes at the most: the entry, its part of a half empty table, its place when sorted. */
+enum { NOOK_SURFEL_BINS_PER_VOXEL = 384, NOOK_SURFEL_BIN_BYTES = 112 + 16 + 8 };
 
 /** Sums over the pieces of one bin, about the voxel's centre, in voxels. */
 typedef struct nook_surfel_bin {
@@ -27,7 +27,8 @@ typedef struct nook_surfel_bin {
 
 typedef struct nook_surfel_bins nook_surfel_bins;
 
-nook_surfel_bins *nook_surfel_bins_create(void);       /**< @return NULL when there is no memory */
+/** @param most  bins that it takes at the most @return NULL when there is no memory */
+nook_surfel_bins *nook_surfel_bins_create(uint32_t most);
 void nook_surfel_bins_destroy(nook_surfel_bins *bins); /**< NULL is allowed. */
 void nook_surfel_bins_clear(nook_surfel_bins *bins);   /**< Keeps its memory for the next slab. */
 
@@ -35,7 +36,7 @@ void nook_surfel_bins_clear(nook_surfel_bins *bins);   /**< Keeps its memory for
  * Adds a piece of surface. What is too small to count (2^-37 voxel areas) is left out.
  * @param voxel    below NOOK_SURFEL_VOXELS, of the caller's numbering
  * @param normal   of unit length @param moments  about the voxel's centre
- * @return NOOK_E_MEMORY, not logged
+ * @return NOOK_E_RANGE one bin too many; NOOK_E_MEMORY; neither is logged
  */
 nook_result nook_surfel_bins_add(nook_surfel_bins *bins, uint32_t voxel, const double normal[3],
                                  const nook_polygon_moments *moments);

@@ -15,10 +15,11 @@ typedef struct cutter {
     const nook_surfel_source *source;
     nook_surfel_bins *bins;
     placed triangle;
-    const nook_alpha_part *part; /* NULL: opaque */
+    const nook_alpha_part *part; /* of the alphas; NULL: opaque */
     nook_alpha_map map;
     int32_t voxel[3];
-    bool out_of_memory;
+    const nook_surfel_part *wanted;
+    nook_result result;
 } cutter;
 
 /* ---- Reading ---------------------------------------------------------------------------------------------------- */
@@ -124,8 +125,8 @@ static void add_piece(void *user, const nook_polygon *polygon, double alpha)
         moments.second[i] *= alpha;
     uint32_t brick = y / NOOK_BRICK_SIDE * c->source->counts[0] + x / NOOK_BRICK_SIDE;
     uint32_t voxel = brick << 6 | nook_brick_bit(x, y, z);
-    if (nook_surfel_bins_add(c->bins, voxel, c->triangle.normal, &moments) != NOOK_OK)
-        c->out_of_memory = true;
+    if (c->result == NOOK_OK)
+        c->result = nook_surfel_bins_add(c->bins, voxel, c->triangle.normal, &moments);
 }
 
 static void add_pieces(cutter *c, const nook_polygon *polygon)
@@ -136,7 +137,26 @@ static void add_pieces(cutter *c, const nook_polygon *polygon)
         add_piece(c, polygon, 1.0);
 }
 
-/* Cuts along z, then y, then x; what is left is in one voxel. Layers end where those of voxels do: NOOK_LAYER_BIAS. */
+static bool is_wanted(const nook_surfel_part *part, uint32_t brick)
+{
+    return brick >= part->first && brick < part->end && (!part->wanted || part->wanted[brick]);
+}
+
+/* Whether what lies in this layer is looked at. */
+static bool is_layer_wanted(const cutter *c, int axis)
+{
+    const uint32_t width = c->source->counts[0], row = (uint32_t)c->voxel[1] / NOOK_BRICK_SIDE;
+    if (axis == 2)
+        return true;
+    if (axis == 1)
+        return (row + 1) * width > c->wanted->first && row * width < c->wanted->end;
+    return is_wanted(c->wanted, row * width + (uint32_t)c->voxel[0] / NOOK_BRICK_SIDE);
+}
+
+/*
+ * Cuts along z, then y, then x; what is left is in one voxel. Layers end where those of voxels do: NOOK_LAYER_BIAS. Layers before wanted
+ * ones are cut off one by one all the same: where an edge is cut twice, its point depends on the first cut.
+ */
 static void cut_axis(cutter *c, const nook_polygon *polygon, int axis, int32_t lowest, int32_t highest)
 {
     int32_t first, last;
@@ -149,6 +169,8 @@ static void cut_axis(cutter *c, const nook_polygon *polygon, int axis, int32_t l
         if (layer < last)
             nook_polygon_split(&rest, axis, (layer + 1.0) * NOOK_SUBVOXEL - NOOK_LAYER_BIAS, &here, &above);
         c->voxel[axis] = layer;
+        if (!is_layer_wanted(c, axis))
+            here.count = 0;
         if (here.count > 0 && axis > 0)
             cut_axis(c, &here, axis - 1, 1, c->source->frame->inner[axis - 1]);
         else if (here.count > 0)
@@ -157,24 +179,68 @@ static void cut_axis(cutter *c, const nook_polygon *polygon, int axis, int32_t l
     }
 }
 
-nook_result nook_surfel_cut(const nook_surfel_source *source, size_t triangle, int32_t slab, nook_surfel_bins *bins)
+/* ---- Public ----------------------------------------------------------------------------------------------------- */
+
+/* First and last brick along each axis of the box around a triangle. */
+static void find_box(const nook_surfel_source *source, const nook_polygon *polygon, uint32_t out[2][3])
 {
-    cutter c = { .source = source, .bins = bins };
+    for (int axis = 0; axis < 3; axis++) {
+        int32_t first, last;
+        find_range(polygon, axis, source->frame->inner[axis], &first, &last);
+        out[0][axis] = (uint32_t)first / NOOK_BRICK_SIDE;
+        out[1][axis] = (uint32_t)last / NOOK_BRICK_SIDE;
+    }
+}
+
+/* Whether a brick of the box is in the part. */
+static bool is_any_wanted(const nook_surfel_source *source, const nook_surfel_part *part, uint32_t box[2][3])
+{
+    if (!part->wanted && part->first == 0 && part->end == source->counts[0] * source->counts[1])
+        return true;
+    for (uint32_t y = box[0][1]; y <= box[1][1]; y++)
+        for (uint32_t x = box[0][0]; x <= box[1][0]; x++)
+            if (is_wanted(part, y * source->counts[0] + x))
+                return true;
+    return false;
+}
+
+nook_result nook_surfel_cut(const nook_surfel_source *source, size_t triangle, const nook_surfel_part *part,
+                            nook_surfel_bins *bins)
+{
+    cutter c = { .source = source, .bins = bins, .wanted = part, .result = NOOK_OK };
     const double up[3] = { 0.0, 0.0, 1.0 }, down[3] = { 0.0, 0.0, -1.0 };
+    uint32_t box[2][3];
     if (!read_triangle(source, triangle, &c.triangle))
         return NOOK_OK;
+    find_box(source, &c.triangle.polygon, box);
+    if (!is_any_wanted(source, part, box))
+        return NOOK_OK;
     find_part(&c, triangle);
-    nook_polygon polygon = c.triangle.polygon, part;
-    int32_t lowest = slab * NOOK_BRICK_SIDE, highest = lowest + NOOK_BRICK_SIDE - 1, inner = source->frame->inner[2];
+    nook_polygon polygon = c.triangle.polygon, cut;
+    int32_t lowest = part->slab * NOOK_BRICK_SIDE, highest = lowest + NOOK_BRICK_SIDE - 1;
+    int32_t inner = source->frame->inner[2];
     if (lowest > 1) {
-        nook_polygon_clip(&polygon, up, (double)lowest * NOOK_SUBVOXEL - NOOK_LAYER_BIAS, &part);
-        polygon = part;
+        nook_polygon_clip(&polygon, up, (double)lowest * NOOK_SUBVOXEL - NOOK_LAYER_BIAS, &cut);
+        polygon = cut;
     }
     if (highest < inner) {
-        nook_polygon_clip(&polygon, down, -((highest + 1.0) * NOOK_SUBVOXEL - NOOK_LAYER_BIAS), &part);
-        polygon = part;
+        nook_polygon_clip(&polygon, down, -((highest + 1.0) * NOOK_SUBVOXEL - NOOK_LAYER_BIAS), &cut);
+        polygon = cut;
     }
     if (polygon.count > 0)
         cut_axis(&c, &polygon, 2, lowest > 1 ? lowest : 1, highest < inner ? highest : inner);
-    return c.out_of_memory ? NOOK_E_MEMORY : NOOK_OK;
+    return c.result;
+}
+
+void nook_surfel_mark(const nook_surfel_source *source, size_t triangle, uint8_t *bricks)
+{
+    placed p;
+    uint32_t box[2][3];
+    if (!read_triangle(source, triangle, &p))
+        return;
+    find_box(source, &p.polygon, box);
+    for (uint32_t z = box[0][2]; z <= box[1][2]; z++)
+        for (uint32_t y = box[0][1]; y <= box[1][1]; y++)
+            memset(bricks + ((size_t)z * source->counts[1] + y) * source->counts[0] + box[0][0], 1,
+                   box[1][0] - box[0][0] + 1);
 }

@@ -22,12 +22,23 @@ typedef struct nook_surfel_source {
 /** First and last slab that a triangle lies in. @return false: it has no area, or a corner that is not finite */
 bool nook_surfel_reach(const nook_surfel_source *source, size_t triangle, int32_t out_slabs[2]);
 
+/** Some bricks of a slab, by their numbers in it: x fastest, then y. */
+typedef struct nook_surfel_part {
+    int32_t slab;
+    uint32_t first, end;   /**< These, but for */
+    const uint8_t *wanted; /**< those that are 0 here, a byte for each brick of the slab. NULL: all are wanted. */
+} nook_surfel_part;
+
 /**
- * Adds what of a triangle lies in a slab. A voxel's number in the bins is that of its brick in the slab, x fastest, then y, times 64, and
- * nook_brick_bit.
- * @return NOOK_E_MEMORY, not logged
+ * Adds what of a triangle lies in a part; which part is asked for changes no bit of what a voxel gets. A voxel's number in the bins is that
+ * of its brick times 64, and nook_brick_bit.
+ * @return as nook_surfel_bins_add
  */
-nook_result nook_surfel_cut(const nook_surfel_source *source, size_t triangle, int32_t slab, nook_surfel_bins *bins);
+nook_result nook_surfel_cut(const nook_surfel_source *source, size_t triangle, const nook_surfel_part *part,
+                            nook_surfel_bins *bins);
+
+/** Sets the bytes of all bricks that a triangle may lie in: those of the box around it. @param bricks  of the whole grid */
+void nook_surfel_mark(const nook_surfel_source *source, size_t triangle, uint8_t *bricks);
 
 #ifdef __cplusplus
 }

@@ -2,8 +2,10 @@
 #include "engine/core/jobs.h"
 #include "engine/core/log.h"
 #include "modules/bake/alpha_hash.h"
+#include "modules/bake/brick_grid.h"
 #include "modules/bake/density_bake.h"
 #include "modules/bake/distance_bake.h"
+#include "modules/bake/edit.h"
 #include "modules/bake/rasterize.h"
 #include "modules/bake/surfel_bake.h"
 #include <stdlib.h>
@@ -160,11 +162,24 @@ static nook_result make_kind(const nook_triangles *triangles, const nook_voxeliz
     case NOOK_VOLUME_DENSITY:
         return nook_density_bake(triangles, desc->alphas, desc->threads, frame, out_volume);
     case NOOK_VOLUME_SURFEL:
-        return nook_surfel_bake(triangles, desc->alphas, desc->threads, frame, out_volume);
+        return nook_surfel_bake(triangles, desc, frame, NULL, out_volume);
     case NOOK_VOLUME_DISTANCE:
         return nook_distance_bake(triangles, desc->threads, frame, out_volume);
     }
     return voxelize_binary(triangles, desc, frame, out_volume);
+}
+
+static nook_volume_info describe(const nook_triangles *triangles, const nook_voxelize_desc *desc,
+                                 const nook_grid_frame *frame, uint64_t occupied)
+{
+    return (nook_volume_info){ .kind = desc->kind,
+                               .width = frame->size[0],
+                               .height = frame->size[1],
+                               .depth = frame->size[2],
+                               .voxel_size = frame->voxel_size,
+                               .origin = { frame->origin[0], frame->origin[1], frame->origin[2] },
+                               .content_hash = nook_voxelize_hash(triangles, desc),
+                               .occupied = occupied };
 }
 
 nook_result nook_voxelize(const nook_triangles *triangles, const nook_voxelize_desc *desc, nook_volume *out_volume)
@@ -176,14 +191,73 @@ nook_result nook_voxelize(const nook_triangles *triangles, const nook_voxelize_d
         result = make_kind(triangles, desc, &frame, &volume);
     if (result != NOOK_OK)
         return result;
-    volume.info = (nook_volume_info){ .kind = desc->kind,
-                                      .width = frame.size[0],
-                                      .height = frame.size[1],
-                                      .depth = frame.size[2],
-                                      .voxel_size = frame.voxel_size,
-                                      .origin = { frame.origin[0], frame.origin[1], frame.origin[2] },
-                                      .content_hash = nook_voxelize_hash(triangles, desc),
-                                      .occupied = volume.info.occupied };
+    volume.info = describe(triangles, desc, &frame, volume.info.occupied);
     *out_volume = volume;
+    return NOOK_OK;
+}
+
+/* ---- Again ------------------------------------------------------------------------------------------------------ */
+
+static bool is_same_grid(const nook_volume_info *info, const nook_grid_frame *frame)
+{
+    bool same = info->voxel_size == frame->voxel_size && info->width == frame->size[0] &&
+                info->height == frame->size[1] && info->depth == frame->size[2];
+    for (int axis = 0; axis < 3; axis++)
+        same = same && info->origin[axis] == frame->origin[axis];
+    return same;
+}
+
+static nook_result check_before(const nook_voxelize_desc *desc, const nook_voxelize_before *before)
+{
+    nook_voxelize_desc then = *desc;
+    then.alphas = before->alphas;
+    if (before->volume->info.kind == desc->kind &&
+        before->volume->info.content_hash == nook_voxelize_hash(before->triangles, &then))
+        return NOOK_OK;
+    return nook_fail(NOOK_E_ARG, "voxelize: the volume before is not that of the triangles before");
+}
+
+/* @param frame  of both */
+static nook_result make_changed(const nook_triangles *triangles, const nook_voxelize_desc *desc,
+                                const nook_voxelize_before *before, const nook_grid_frame *frame,
+                                nook_volume *out_volume, size_t *out_bricks)
+{
+    uint8_t *changed = calloc(nook_brick_total(&before->volume->info), 1);
+    nook_result result = NOOK_E_MEMORY;
+    if (changed)
+        result = nook_edit_find(&(nook_edit_soup){ before->triangles, before->alphas },
+                                &(nook_edit_soup){ triangles, desc->alphas }, frame, changed, out_bricks);
+    if (result == NOOK_OK)
+        result = nook_surfel_bake(triangles, desc, frame, &(nook_surfel_before){ before->volume, changed }, out_volume);
+    else
+        result = nook_fail(NOOK_E_MEMORY, "voxelize: no memory to tell %zu triangles from those before",
+                           triangles->index_count / 3);
+    free(changed);
+    return result;
+}
+
+nook_result nook_voxelize_again(const nook_triangles *triangles, const nook_voxelize_desc *desc,
+                                const nook_voxelize_before *before, nook_volume *out_volume, size_t *out_bricks)
+{
+    nook_grid_frame frame;
+    nook_volume volume;
+    size_t bricks = 0;
+    nook_result result = nook_grid_place(triangles, desc, &frame);
+    if (result == NOOK_OK)
+        result = check_before(desc, before);
+    if (result != NOOK_OK)
+        return result;
+    if (desc->kind == NOOK_VOLUME_SURFEL && is_same_grid(&before->volume->info, &frame)) {
+        result = make_changed(triangles, desc, before, &frame, &volume, &bricks);
+    } else {
+        result = make_kind(triangles, desc, &frame, &volume);
+        bricks = nook_brick_total(&before->volume->info);
+    }
+    if (result != NOOK_OK)
+        return result;
+    volume.info = describe(triangles, desc, &frame, volume.info.occupied);
+    *out_volume = volume;
+    if (out_bricks)
+        *out_bricks = bricks;
     return NOOK_OK;
 }

@@ -30,6 +30,7 @@ extern "C" {
 
 /** Raise it when the voxels of the same triangles change: cached volumes of older versions are then baked again. */
 #define NOOK_VOXELIZE_VERSION 2u
+#define NOOK_VOXELIZE_MEMORY (64u << 20)
 #define NOOK_VOXELIZE_RESOLUTION_MAX (NOOK_VOLUME_SIDE_MAX - 2u)
 
 typedef struct nook_triangles {
@@ -41,8 +42,10 @@ typedef struct nook_triangles {
 } nook_triangles;
 
 typedef struct nook_voxelize_desc {
-    uint32_t resolution;   /**< Voxels along the longest side of the mesh's box, the border not counted: [1, 512]. */
-    uint32_t threads;      /**< 0: all cores. The result does not depend on it. */
+    uint32_t resolution; /**< Voxels along the longest side of the mesh's box, the border not counted: [1, 512]. */
+    uint32_t threads;    /**< 0: all cores. The result does not depend on it. */
+    size_t
+        memory; /**< Bytes that each thread may use to sum up surfels, at least 4 MiB; 0: NOOK_VOXELIZE_MEMORY. Nor on this. */
     nook_volume_kind kind; /**< What is made of the triangles; 0: voxels. */
     const nook_alphas
         *alphas; /**< Of the triangles; NULL: all are opaque. What each kind makes of them: docs/volume_kinds.md. */
@@ -56,6 +59,23 @@ typedef struct nook_voxelize_desc {
  *         NOOK_E_MEMORY; *out_volume is untouched on failure. Its content_hash is nook_voxelize_hash's.
  */
 nook_result nook_voxelize(const nook_triangles *triangles, const nook_voxelize_desc *desc, nook_volume *out_volume);
+
+/** What a soup was before it was edited, and the volume that was made of it. Borrowed. */
+typedef struct nook_voxelize_before {
+    const nook_triangles *triangles;
+    const nook_alphas *alphas; /**< NULL: all was opaque. */
+    const nook_volume *volume; /**< As nook_voxelize made it of them, with the same resolution and kind. */
+} nook_voxelize_before;
+
+/**
+ * The same as nook_voxelize bit for bit, sooner: of surfels only those bricks are made in whose boxes triangles differ, before or after. Where
+ * the grid differs, as the soup's box does, and for other kinds, everything is made. Triangles are told apart by their places in
+ * the lists: what is put in or taken out in one place of a list changes only the triangles between.
+ * @param out_bricks  how many were made; NULL is allowed
+ * @return as nook_voxelize; NOOK_E_ARG also when the volume is not that of those triangles
+ */
+nook_result nook_voxelize_again(const nook_triangles *triangles, const nook_voxelize_desc *desc,
+                                const nook_voxelize_before *before, nook_volume *out_volume, size_t *out_bricks);
 
 /**
  * Identifies a bake: a hash of positions, indices, kind, resolution, the versions of voxeliser and file, and of those parts that the kind

@@ -1,5 +1,6 @@
 #include "engine/core/log.h"
 #include "game/volumes.h"
+#include "tests/support/scratch.h"
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -169,6 +170,38 @@ static void test_blended_materials_are_left_out_and_masked_ones_are_in(void **st
     assert_int_equal(nook_volumes_bake(&s->scene, &desc, &v), NOOK_OK);
     assert_non_null(nook_scene_volume_bake(&v.volumes[1])); /* surfels hold it, by its alpha */
     nook_volumes_free(&v);
+    free(s);
+}
+
+/* A corner of the cube at x = 10 moves towards the other: of 43 x 3 x 3 bricks those around that cube are made. */
+static void test_an_edited_scene_is_baked_where_it_changed(void **state)
+{
+    (void)state;
+    char folder[1024];
+    nook_scratch_path(folder, sizeof folder, "edited");
+    stage *s = make_stage();
+    nook_scene_volumes first, shown, edited, whole;
+    nook_volumes_desc desc = {
+        .resolution = 168, .r_max = 2.0, .threads = 1, .cache_dir = folder, .kinds = NOOK_VOLUME_BIT(NOOK_VOLUME_SURFEL)
+    };
+    assert_int_equal(nook_volumes_bake(&s->scene, &desc, &first), NOOK_OK);
+    assert_int_equal(nook_volumes_collect(&s->scene, &desc, &shown), NOOK_OK);
+    s->vertices[8 * 2].position[0] -= 0.3f;
+    desc.before = &shown;
+    assert_int_equal(nook_volumes_bake(&s->scene, &desc, &edited), NOOK_OK);
+    desc.before = NULL;
+    desc.cache_dir = NULL;
+    assert_int_equal(nook_volumes_bake(&s->scene, &desc, &whole), NOOK_OK);
+    const nook_bake *bakes[] = { &edited.volumes[0].bakes[NOOK_VOLUME_SURFEL],
+                                 &whole.volumes[0].bakes[NOOK_VOLUME_SURFEL] };
+    assert_true(bakes[0]->bricks >= 1 && bakes[0]->bricks <= 4 * 4 * 4);
+    assert_int_equal(bakes[0]->size, bakes[1]->size);
+    assert_memory_equal(bakes[0]->bytes, bakes[1]->bytes, bakes[1]->size);
+    assert_true(edited.volumes[1].bakes[NOOK_VOLUME_SURFEL].cache_hit); /* nothing of the crates has changed */
+    nook_volumes_free(&first);
+    nook_volumes_free(&shown);
+    nook_volumes_free(&edited);
+    nook_volumes_free(&whole);
     free(s);
 }
 
@@ -364,6 +397,7 @@ int main(void)
         cmocka_unit_test(test_instances_share_one_bake),
         cmocka_unit_test(test_static_nodes_become_one_volume_in_world_space),
         cmocka_unit_test(test_blended_materials_are_left_out_and_masked_ones_are_in),
+        cmocka_unit_test(test_an_edited_scene_is_baked_where_it_changed),
         cmocka_unit_test(test_densities_hold_blended_materials_with_their_alpha),
         cmocka_unit_test(test_scene_with_nothing_to_bake_has_no_volumes),
         cmocka_unit_test(test_corners_that_are_not_finite_are_left_out),
