@@ -163,12 +163,15 @@ static void place_instances(draw_set *set, uint32_t kept_count, uint32_t bucket_
     const instance_data *unsorted = set->unsorted.items;
     instance_data *instances = set->instances.items;
     kept_draw *kept = set->kept.items;
-    uint32_t *counts = set->counts.items;
+    uint32_t *counts = set->counts.items, *draws = set->draws.items;
     batch *batches = set->batches.items;
     qsort(kept, kept_count, sizeof *kept, compare_kept);
     make_batches(set, bucket_count);
-    for (uint32_t i = 0; i < kept_count; i++)
-        instances[counts[kept[i].bucket]++] = unsorted[kept[i].draw];
+    for (uint32_t i = 0; i < kept_count; i++) {
+        uint32_t place = counts[kept[i].bucket]++;
+        instances[place] = unsorted[kept[i].draw];
+        draws[place] = kept[i].draw;
+    }
     for (uint32_t i = 0, at = 0; i < bucket_count; i++) { /* counts[i] is where bucket i ends now */
         if (at < set->batch_count && batches[at].first_instance < counts[i])
             counts[i] = at++;
@@ -202,7 +205,7 @@ nook_result nook_batch(nook_gpu *gpu, const nook_frame *frame, const batch_view 
     size_t count = frame->draw_count;
     if (!nook_grow(&set->unsorted, count * sizeof(instance_data)) ||
         !nook_grow(&set->instances, count * sizeof(instance_data)) ||
-        !nook_grow(&set->kept, count * sizeof(kept_draw)) ||
+        !nook_grow(&set->draws, count * sizeof(uint32_t)) || !nook_grow(&set->kept, count * sizeof(kept_draw)) ||
         !nook_grow(&set->counts, bucket_count * sizeof(uint32_t)) || !nook_grow(&set->batches, count * sizeof(batch)))
         return nook_fail(NOOK_E_MEMORY, "%zu draws: no memory for their instances", count);
 
@@ -229,6 +232,7 @@ void nook_draw_set_destroy(nook_gpu *gpu, draw_set *set)
     nook_buffer_destroy(gpu, &set->buffer);
     free(set->unsorted.items);
     free(set->instances.items);
+    free(set->draws.items);
     free(set->kept.items);
     free(set->counts.items);
     free(set->batches.items);

@@ -110,7 +110,40 @@ typedef struct solid_draw {
     program_choice choose;
     const void *user;
     bool cull;
+    const index_range *ranges; /* NULL: whole primitives */
+    const uint32_t *first_range, *draws;
 } solid_draw;
+
+/** What is listed of an instance's primitive. @param primitive  of its mesh */
+static const index_range *range_of(const solid_draw *how, uint32_t instance, uint32_t primitive)
+{
+    return &how->ranges[how->first_range[how->draws[instance]] + primitive];
+}
+
+/** How many indices of a primitive of a batch's mesh are drawn. */
+static uint32_t indices_of(const nook_render_scene *s, const batch *b, uint32_t primitive, const solid_draw *how)
+{
+    uint32_t indices = 0;
+    if (!how->ranges)
+        return s->primitives[s->scene->meshes[b->mesh].first_primitive + primitive].index_count * b->instance_count;
+    for (uint32_t i = 0; i < b->instance_count; i++)
+        indices += range_of(how, b->first_instance + i, primitive)->count;
+    return indices;
+}
+
+/** Draws of each instance of one primitive what is listed; its material is bound. */
+static void draw_ranges(nook_renderer *renderer, const nook_render_scene *s, const batch *b, uint32_t primitive,
+                        const solid_draw *how)
+{
+    const render_primitive *p = &s->primitives[s->scene->meshes[b->mesh].first_primitive + primitive];
+    for (uint32_t i = b->first_instance; i < b->first_instance + b->instance_count; i++) {
+        const index_range *range = range_of(how, i, primitive);
+        if (range->count > 0)
+            renderer->gpu->gl->DrawElementsInstancedBaseVertexBaseInstance(
+                GL_TRIANGLES, (GLsizei)range->count, GL_UNSIGNED_INT,
+                (const void *)((uintptr_t)range->first * sizeof(uint32_t)), 1, (GLint)p->first_vertex, i);
+    }
+}
 
 /** The primitives of a batch that have one alpha mode. */
 static void draw_batch(nook_renderer *renderer, const nook_render_scene *s, const batch *b, nook_alpha_mode mode,
@@ -124,48 +157,69 @@ static void draw_batch(nook_renderer *renderer, const nook_render_scene *s, cons
         const nook_material *material = &s->scene->materials[number];
         if (material->alpha_mode != mode)
             continue;
+        if (indices_of(s, b, i, how) == 0)
+            continue;
         nook_program program = how->choose(renderer, how->user, &s->material_images[number], mode == NOOK_ALPHA_MASK);
         if (program.handle == 0)
             continue;
         enable(gl, GL_CULL_FACE, how->cull && !material->double_sided);
         nook_program_use(renderer->gpu, program);
         nook_bind_material(renderer, s, number);
-        nook_draw_primitive(renderer, s, primitive, b->first_instance, b->instance_count);
+        if (how->ranges)
+            draw_ranges(renderer, s, b, i, how);
+        else
+            nook_draw_primitive(renderer, s, primitive, b->first_instance, b->instance_count);
     }
 }
 
-static uint32_t triangles_of(const nook_render_scene *s, const batch *b)
+static uint32_t triangles_of(const nook_render_scene *s, const batch *b, const solid_draw *how)
 {
-    const nook_mesh *mesh = &s->scene->meshes[b->mesh];
     uint32_t indices = 0;
-    for (uint32_t i = 0; i < mesh->primitive_count; i++)
-        indices += s->primitives[mesh->first_primitive + i].index_count;
-    return indices / 3 * b->instance_count;
+    for (uint32_t i = 0; i < s->scene->meshes[b->mesh].primitive_count; i++)
+        indices += indices_of(s, b, i, how);
+    return indices / 3;
 }
 
 /**
  * Software GL begins to fill triangles, on threads of its own, when it is flushed, and works on vertices in this thread only: what is
- * flushed early fills its pixels meanwhile.
+ * flushed early fills its pixels meanwhile. Of listed triangles nearly each has pixels.
  */
-enum { FLUSHED_TRIANGLES = 24000 };
+enum { FLUSHED_TRIANGLES = 24000, FLUSHED_LISTED = 6000 };
 
-void nook_draw_solid(nook_renderer *renderer, const nook_render_scene *scene, const draw_set *set,
-                     program_choice choose, const void *user, bool cull)
+static void draw_batches(nook_renderer *renderer, const nook_render_scene *scene, const draw_set *set,
+                         const solid_draw *how)
 {
     const batch *batches = set->batches.items;
-    const solid_draw how = { choose, user, cull };
+    const uint32_t most = how->ranges ? FLUSHED_LISTED : FLUSHED_TRIANGLES;
     uint32_t triangles = 0;
-    nook_bind_geometry(renderer, scene, set);
     for (uint32_t i = 0; i < set->batch_count; i++) {
-        draw_batch(renderer, scene, &batches[i], NOOK_ALPHA_OPAQUE, &how);
-        triangles += triangles_of(scene, &batches[i]);
-        if (renderer->gpu->software && triangles >= FLUSHED_TRIANGLES) {
+        draw_batch(renderer, scene, &batches[i], NOOK_ALPHA_OPAQUE, how);
+        triangles += triangles_of(scene, &batches[i], how);
+        if (renderer->gpu->software && triangles >= most) {
             renderer->gpu->gl->Flush();
             triangles = 0;
         }
     }
     for (uint32_t i = 0; i < set->batch_count; i++)
-        draw_batch(renderer, scene, &batches[i], NOOK_ALPHA_MASK, &how);
+        draw_batch(renderer, scene, &batches[i], NOOK_ALPHA_MASK, how);
+}
+
+void nook_draw_solid(nook_renderer *renderer, const nook_render_scene *scene, const draw_set *set,
+                     program_choice choose, const void *user, bool cull)
+{
+    const solid_draw how = { choose, user, cull, NULL, NULL, NULL };
+    nook_bind_geometry(renderer, scene, set);
+    draw_batches(renderer, scene, set, &how);
+}
+
+void nook_draw_listed(nook_renderer *renderer, const nook_render_scene *scene, const draw_set *set,
+                      program_choice choose, const void *user, bool cull, const index_list *list,
+                      const uint32_t *first_range)
+{
+    const solid_draw how = { choose, user, cull, list->ranges.items, first_range, set->draws.items };
+    nook_bind_geometry(renderer, scene, set);
+    renderer->gpu->gl->VertexArrayElementBuffer(renderer->vertex_array, list->buffer.id);
+    draw_batches(renderer, scene, set, &how);
 }
 
 void nook_draw_fullscreen(nook_renderer *renderer, nook_program program)

@@ -40,6 +40,8 @@ static nook_result collect_visible(nook_renderer *renderer, const nook_frame *fr
     };
     nook_result result = nook_batch(renderer->gpu, frame, &view, &renderer->visible);
     if (result == NOOK_OK)
+        result = nook_cull_begin(renderer, frame);
+    if (result == NOOK_OK)
         result = nook_collect_blended(renderer, frame);
     return result;
 }

@@ -41,19 +41,46 @@ static nook_program choose_program(nook_renderer *renderer, const void *user, co
     return *program;
 }
 
-static void draw_round(nook_renderer *renderer, const nook_frame *frame, bool emits)
+/** @param list  of what is to be drawn; NULL: all */
+static void draw_round(nook_renderer *renderer, const nook_frame *frame, bool emits, nook_framebuffer target,
+                       const index_list *list)
 {
-    const render_targets *targets = &renderer->targets;
     const gbuffer_round round = { frame, emits };
+    const draw_set *set = &renderer->visible;
     nook_raster_begin(
-        renderer->gpu, emits ? targets->gbuffer_target : targets->dark_gbuffer_target,
+        renderer->gpu, target,
         (raster_state){
             .depth_compare = GL_GREATER, .depth_write = true, .cull = true, .srgb = !is_encoded(renderer, frame) });
-    nook_draw_solid(renderer, frame->scene, &renderer->visible, choose_program, &round, frame->cull_back_faces);
+    if (list)
+        nook_draw_listed(renderer, frame->scene, set, choose_program, &round, frame->cull_back_faces, list,
+                         renderer->cull.first_range.items);
+    else
+        nook_draw_solid(renderer, frame->scene, set, choose_program, &round, frame->cull_back_faces);
 }
 
 /* Emission is 0 nearly everywhere, and writing it costs a software driver a fifteenth of a picture: only what emits does, after all
    else, so that nothing in front of it would have to write 0 over it. */
+static void draw_rounds(nook_renderer *renderer, const nook_frame *frame, const index_list *list)
+{
+    draw_round(renderer, frame, false, renderer->targets.dark_gbuffer_target, list);
+    draw_round(renderer, frame, true, renderer->targets.gbuffer_target, list);
+}
+
+/** What showed in the last frame, then what else shows: that may cover what emits. */
+static void draw_culled(nook_renderer *renderer, const nook_frame *frame)
+{
+    const triangle_cull *cull = &renderer->cull;
+    const nook_framebuffer target = renderer->targets.gbuffer_target;
+    draw_rounds(renderer, frame, &cull->kept);
+    renderer->gpu->gl->Flush(); /* pixels are filled while triangles are found */
+    nook_cull_find(renderer, frame);
+    nook_cull_list(renderer, frame);
+    if (cull->rest.count > 0) {
+        draw_round(renderer, frame, false, target, &cull->rest);
+        draw_round(renderer, frame, true, target, &cull->rest);
+    }
+}
+
 void nook_pass_gbuffer(nook_renderer *renderer, const nook_frame *frame)
 {
     const nook_gl *gl = renderer->gpu->gl;
@@ -64,8 +91,10 @@ void nook_pass_gbuffer(nook_renderer *renderer, const nook_frame *frame)
     gl->ClearNamedFramebufferfv(target.id, GL_DEPTH, 0, zero); /* reversed-Z: infinitely far */
     for (GLuint i = 0; i < MATERIAL_IMAGES && frame->quick; i++)
         gl->BindSampler(i, renderer->quick_sampler);
-    draw_round(renderer, frame, false);
-    draw_round(renderer, frame, true);
+    if (renderer->cull.on)
+        draw_culled(renderer, frame);
+    else
+        draw_rounds(renderer, frame, NULL);
     for (GLuint i = 0; i < MATERIAL_IMAGES; i++)
         gl->BindSampler(i, 0);
     nook_raster_end(renderer->gpu);

@@ -93,6 +93,31 @@ typedef struct render_deform {
     uint32_t version;               /* of the pose that the scene's vertices have; 0: none yet */
 } render_deform;
 
+/** A list that grows and never shrinks. */
+typedef struct grow_list {
+    void *items;
+    size_t capacity; /* bytes */
+} grow_list;
+
+enum { CHUNK_TRIANGLES = 64 };
+
+/** Triangles of a primitive that follow each other: what a quick frame looks at at once. */
+typedef struct render_chunk {
+    nook_box box;          /* mesh space, at rest */
+    uint32_t first_vertex; /* into the vertices of all chunks */
+    uint32_t first_triangle;
+    uint32_t vertex_count, triangle_count;
+} render_chunk;
+
+/** All triangles of a scene by chunks; made when the first quick frame asks for them. */
+typedef struct render_chunks {
+    uint32_t *first; /* by primitive, and one more: its first chunk. NULL: none made yet */
+    render_chunk *items;
+    float *x, *y, *z;      /* by vertex: mesh space */
+    uint32_t *indices;     /* by vertex: relative to the primitive's first */
+    uint8_t (*corners)[3]; /* by triangle: vertices of the chunk */
+} render_chunks;
+
 struct nook_render_scene {
     nook_gpu *gpu;
     render_deform deform;
@@ -104,6 +129,7 @@ struct nook_render_scene {
     render_material *material_images; /* as scene->materials */
     nook_texture *textures;           /* owned: every image that is used, once per encoding */
     uint32_t texture_count;
+    render_chunks chunks;
     uint64_t bytes;
     double created_ms; /* tells this scene from an older one at the same address */
 };
@@ -129,23 +155,54 @@ typedef struct blended_draw {
     bool mirrored;
 } blended_draw;
 
-/** A list that grows and never shrinks. */
-typedef struct grow_list {
-    void *items;
-    size_t capacity; /* bytes */
-} grow_list;
-
 /** What one pass draws: instances in a GPU buffer, and runs of them. */
 typedef struct draw_set {
     grow_list unsorted;  /* instance_data, in the order of the draws */
     grow_list kept;      /* kept_draw: those in view, in order */
     grow_list instances; /* instance_data */
+    grow_list draws;     /* uint32_t: which draw an instance is */
     grow_list batches;   /* batch, in order, nearest first: what lies behind is not shaded */
     grow_list counts;    /* uint32_t: draws per mesh and handedness */
     uint32_t instance_count, batch_count;
     double near_distance, far_distance; /* along the view axis, of the boxes of what is in it; near > far when empty */
     nook_buffer buffer;                 /* the instances on the GPU */
 } draw_set;
+
+/** Pixels; both ends are inside. */
+typedef struct pixel_rect {
+    uint16_t low[2], high[2];
+} pixel_rect;
+
+/** Indices of one instance of one primitive that are drawn. */
+typedef struct index_range {
+    uint32_t first, count;
+} index_range;
+
+/** Triangles to be drawn. */
+typedef struct index_list {
+    grow_list indices;  /* uint32_t */
+    grow_list ranges;   /* index_range: by draw, primitive of its mesh */
+    uint32_t count;     /* of indices */
+    nook_buffer buffer; /* the indices on the GPU */
+} index_list;
+
+/** What a quick frame leaves out: triangles that show nothing. */
+typedef struct triangle_cull {
+    bool on;                        /* in this frame */
+    const nook_render_scene *scene; /* that `kept` and `seen` are of, and when that was made */
+    double scene_created_ms;
+    grow_list meshes;      /* uint32_t, by draw: those that they are of */
+    grow_list first_seen;  /* uint32_t, by draw: where its triangles begin in `seen` */
+    grow_list first_range; /* uint32_t, by draw: where its primitives begin in the ranges of lists */
+    grow_list candidates;  /* cull_candidate: triangles that have pixels, in the order in which they are drawn */
+    grow_list seen;        /* uint8_t: whether `kept` has it, of all triangles of all draws */
+    grow_list next_seen;
+    grow_list depths; /* float: the picture's, bottom row first */
+    index_list kept;  /* what could be seen in the last frame */
+    index_list rest;  /* what else can be seen */
+    size_t draw_count;
+    uint32_t candidate_count, seen_count, range_count;
+} triangle_cull;
 
 /** All targets that depend on the size. */
 typedef struct render_targets {
@@ -213,7 +270,9 @@ struct nook_renderer {
     uint32_t nearest_sampler;                                 /* of the caller's visibility */
     nook_program lighting_program, lighting_image_program, blended_program, view_program;
     draw_set visible, casters;
-    grow_list blended; /* blended_draw */
+    triangle_cull cull; /* of what is visible */
+    bool draws_hidden;  /* for tests: quick frames draw all, too */
+    grow_list blended;  /* blended_draw */
     size_t blended_count;
     frame_block frame;
 };
@@ -272,7 +331,28 @@ typedef nook_program (*program_choice)(nook_renderer *renderer, const void *user
 /** Draws all primitives of a set but the blended ones, those with holes last. @param cull  back faces of single-sided ones */
 void nook_draw_solid(nook_renderer *renderer, const nook_render_scene *scene, const draw_set *set,
                      program_choice choose, const void *user, bool cull);
+/** The same of what is listed of a set. @param first_range  by draw */
+void nook_draw_listed(nook_renderer *renderer, const nook_render_scene *scene, const draw_set *set,
+                      program_choice choose, const void *user, bool cull, const index_list *list,
+                      const uint32_t *first_range);
 void nook_draw_fullscreen(nook_renderer *renderer, nook_program program);
+
+/* chunks.c */
+/** Nothing when they are made. @return NOOK_E_MEMORY */
+nook_result nook_chunks_make(const nook_scene *scene, render_chunks *chunks);
+void nook_chunks_destroy(render_chunks *chunks);
+
+/* cull.c; in this order */
+/** Whether this frame's triangles are culled; then renderer->cull.kept is to be drawn first. @return NOOK_E_MEMORY */
+nook_result nook_cull_begin(nook_renderer *renderer, const nook_frame *frame);
+/** Which triangles of what is visible have pixels, and which. */
+void nook_cull_find(nook_renderer *renderer, const nook_frame *frame);
+/**
+ * Lists in renderer->cull.rest what shows besides, by the depth of what has been drawn, for which it waits; and in `kept` what the next
+ * frame draws first.
+ */
+void nook_cull_list(nook_renderer *renderer, const nook_frame *frame);
+void nook_cull_destroy(nook_gpu *gpu, triangle_cull *cull);
 
 /* shadow_fit.c */
 /** Fits the map to everything drawn. @return false: nothing is drawn */

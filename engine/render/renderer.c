@@ -129,6 +129,7 @@ void nook_renderer_destroy(nook_renderer *r)
     nook_targets_destroy(r->gpu, &r->targets);
     nook_draw_set_destroy(r->gpu, &r->visible);
     nook_draw_set_destroy(r->gpu, &r->casters);
+    nook_cull_destroy(r->gpu, &r->cull);
     free(r->blended.items);
     free(r->shadow.draws.items);
     free(r->shadow.some.items);

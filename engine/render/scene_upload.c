@@ -247,6 +247,7 @@ void nook_render_scene_destroy(nook_render_scene *s)
     nook_buffer_destroy(s->gpu, &s->triangle_normals);
     nook_buffer_destroy(s->gpu, &s->materials);
     nook_deform_destroy(s);
+    nook_chunks_destroy(&s->chunks);
     free(s->textures);
     free(s->primitives);
     free(s->material_images);
