@@ -147,7 +147,8 @@ static nook_result open_view(const nook_extremes *extremes, const nook_edge_scen
                                           .technique_count = count,
                                           .depth_format = desc->depth_format,
                                           .normal_format = desc->normal_format,
-                                          .progress_user = desc->user };
+                                          .progress_user = desc->user,
+                                          .cache_dir = extremes->scratch };
     nook_result result = nook_fixture_view_create(&view, &scene->view);
     if (result != NOOK_OK)
         return result;

@@ -17,7 +17,7 @@ struct nook_fixture_view; /* modules/fixture/view.h */
 /** What the cases share. */
 typedef struct nook_extremes {
     nook_gpu *gpu;       /**< A device, current. */
-    const char *scratch; /**< A folder for files, which the caller removes. */
+    const char *scratch; /**< A folder for files and baked volumes, which the caller removes. */
     bool quick;          /**< Fewer samples of the same cases: for tests, under sanitizers too. */
     /** Told while a case works: fraction in [0, 1]. NULL: silence. */
     void (*progress)(void *user, double fraction);

@@ -190,11 +190,26 @@ static double triangle_distance(const nook_snapped_triangle *triangle, const dou
     return nearest;
 }
 
+/* Whether the box around a triangle is farther than what was found; not by a rounding error of the triangle's own distance. */
+static bool is_farther(const nook_snapped_triangle *triangle, const double point[3], double best)
+{
+    double sum = 0.0;
+    for (int axis = 0; axis < 3; axis++) {
+        const int32_t a = triangle->corner[0][axis], b = triangle->corner[1][axis], c = triangle->corner[2][axis];
+        const int32_t low = a < b ? (a < c ? a : c) : (b < c ? b : c), high = a > b ? (a > c ? a : c) : (b > c ? b : c);
+        const double below = low - point[axis], above = point[axis] - high, out = below > above ? below : above;
+        sum += out > 0.0 ? out * out : 0.0;
+    }
+    return sum > best * (1.0 + 1e-9);
+}
+
 /* Nearer of the leaf's triangles. */
 static void visit_leaf(const nook_triangle_tree *tree, uint32_t leaf, const double point[3], double *best,
                        uint32_t *nearest)
 {
     for (uint64_t i = (uint64_t)leaf * LEAF; i < ((uint64_t)leaf + 1) * LEAF && i < tree->count; i++) {
+        if (i == *nearest || is_farther(&tree->triangles[i], point, *best))
+            continue;
         double distance = triangle_distance(&tree->triangles[i], point);
         if (distance < *best) {
             *best = distance;

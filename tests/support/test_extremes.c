@@ -13,22 +13,19 @@
 typedef struct extreme_test {
     const nook_extreme_group *group;
     const nook_extreme *extreme;
+    const nook_scratch_folder *scratch; /* of the whole program: volumes are baked once */
     test_gpu gpu;
-    nook_scratch_folder scratch;
 } extreme_test;
 
 static int setup(void **state)
 {
     extreme_test *test = *state;
-    if (test_gpu_create(NULL, &test->gpu) != NOOK_OK)
-        return -1;
-    return nook_scratch_folder_make(&test->scratch) == NOOK_OK ? 0 : -1;
+    return test_gpu_create(NULL, &test->gpu) == NOOK_OK ? 0 : -1;
 }
 
 static int teardown(void **state)
 {
     extreme_test *test = *state;
-    nook_scratch_folder_remove(&test->scratch);
     test_gpu_destroy(&test->gpu);
     return 0;
 }
@@ -36,7 +33,7 @@ static int teardown(void **state)
 static void run_case(void **state)
 {
     extreme_test *test = *state;
-    const nook_extremes extremes = { .gpu = test->gpu.gpu, .scratch = test->scratch.path, .quick = true };
+    const nook_extremes extremes = { .gpu = test->gpu.gpu, .scratch = test->scratch->path, .quick = true };
     nook_extreme_row row;
     nook_extreme_run(&extremes, test->group, test->extreme, &row);
     assert_int_equal(row.result, NOOK_OK);
@@ -50,13 +47,15 @@ int test_extremes_main(const nook_extreme_group *group)
 {
     struct CMUnitTest *tests = calloc(group->count, sizeof *tests);
     extreme_test *states = calloc(group->count, sizeof *states);
+    nook_scratch_folder scratch;
     int failed = -1;
-    if (tests && states) {
+    if (tests && states && nook_scratch_folder_make(&scratch) == NOOK_OK) {
         for (size_t i = 0; i < group->count; i++) {
-            states[i] = (extreme_test){ .group = group, .extreme = &group->cases[i] };
+            states[i] = (extreme_test){ .group = group, .extreme = &group->cases[i], .scratch = &scratch };
             tests[i] = (struct CMUnitTest){ group->cases[i].name, run_case, setup, teardown, &states[i] };
         }
         failed = _cmocka_run_group_tests(group->name, tests, group->count, NULL, NULL);
+        nook_scratch_folder_remove(&scratch);
     }
     free(tests);
     free(states);
