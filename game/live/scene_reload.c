@@ -261,7 +261,7 @@ bool nook_scene_reload_poll(nook_scene_reload *self)
     return self->waiting.scene != NULL;
 }
 
-static nook_result swap(nook_scene_reload *self, nook_play *play)
+static nook_result swap(nook_scene_reload *self, nook_scene_go_on go_on, void *game)
 {
     nook_stage_scene made, before;
     double start = nook_clock_ms();
@@ -269,9 +269,9 @@ static nook_result swap(nook_scene_reload *self, nook_play *play)
     if (result != NOOK_OK)
         return result;
     self->waiting.scene = NULL;
-    if (play) {
+    if (go_on) {
         assert(self->is_level);
-        result = nook_play_go_on(play, self->waiting.level, made.scene, made.world);
+        result = go_on(game, self->waiting.level, made.scene, made.world);
         self->waiting.level = NULL;
     }
     if (result != NOOK_OK) {
@@ -288,11 +288,11 @@ static nook_result swap(nook_scene_reload *self, nook_play *play)
     return NOOK_OK;
 }
 
-nook_result nook_scene_reload_swap(nook_scene_reload *self, nook_play *play)
+nook_result nook_scene_reload_swap(nook_scene_reload *self, nook_scene_go_on go_on, void *game)
 {
     assert(self->waiting.scene);
     nook_log_keep_errors(self->error, sizeof self->error);
-    nook_result result = swap(self, play);
+    nook_result result = swap(self, go_on, game);
     nook_log_keep_errors(NULL, 0);
     nook_loaded_scene_free(&self->waiting);
     if (result != NOOK_OK)

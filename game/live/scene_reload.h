@@ -2,10 +2,10 @@
  * scene_reload.h - models, textures and levels that are saved while they are shown: read and baked in the background, then
  * exchanged between two frames. Until then, and when something is wrong with them, what is shown stays.
  *
- *   every frame:  if (nook_scene_reload_poll(reload)) { let go of the old scene; nook_scene_reload_swap(reload, play); }
+ *   every frame:  if (nook_scene_reload_poll(reload)) { let go of the old scene; nook_scene_reload_swap(reload, go_on, game); }
  */
 #pragma once
-#include "game/play/play.h"
+#include "game/level/level.h"
 #include "game/stage.h"
 
 typedef struct nook_scene_reload nook_scene_reload;
@@ -30,11 +30,16 @@ void nook_scene_reload_destroy(
 /** Once a frame, before anything of it is drawn. @return true: a new scene waits for nook_scene_reload_swap */
 bool nook_scene_reload_poll(nook_scene_reload *reload);
 /**
+ * What is played in the scene goes on in the new one. @param level  taken over, also on failure @param scene, world  outlive the game
+ * @return why not; it goes on in the old one then
+ */
+typedef nook_result (*nook_scene_go_on)(void *game, nook_level *level, const nook_scene *scene, nook_game_world *world);
+/**
  * Shows the scene that waits; the one of before is gone, with its world and its ids in the AO.
- * @param play  what is played in it goes on in the new one (nook_play_go_on); the stage's scene is a level then. NULL: nobody plays
+ * @param go_on  called with `game`; the stage's scene is a level then. NULL: nobody plays
  * @return why not, which `error` says too; everything is as it was then
  */
-nook_result nook_scene_reload_swap(nook_scene_reload *reload, nook_play *play);
+nook_result nook_scene_reload_swap(nook_scene_reload *reload, nook_scene_go_on go_on, void *game);
 
 /** As of the last call; valid until the next. */
 const nook_scene_reload_status *nook_scene_reload_status_of(const nook_scene_reload *reload);

@@ -40,11 +40,16 @@ static void use_settings(nook_play_window *w, const nook_settings_file *file)
     nook_log_info("play: settings taken over: %s", text);
 }
 
+static nook_result go_on(void *game, nook_level *level, const nook_scene *scene, nook_game_world *world)
+{
+    return nook_play_go_on(game, level, scene, world);
+}
+
 static void take_scene(nook_play_window *w)
 {
     if (nook_scene_reload_poll(w->scenes)) {
         nook_live_suspend(w->live); /* its truth reads the triangles of the old one */
-        nook_scene_reload_swap(w->scenes, &w->play);
+        nook_scene_reload_swap(w->scenes, go_on, &w->play);
     }
     nook_live_message(w->live, "scene", nook_scene_reload_status_of(w->scenes)->error);
 }

@@ -237,7 +237,7 @@ static void reload(viewer *v)
         nook_live_suspend(v->live); /* what it holds was drawn by the old ones */
     if (v->scenes && nook_scene_reload_poll(v->scenes)) {
         nook_live_suspend(v->live); /* the truth reads its meshes */
-        nook_scene_reload_swap(v->scenes, NULL);
+        nook_scene_reload_swap(v->scenes, NULL, NULL);
     }
     nook_live_message(v->live, "reload", reload_error(v));
 }

@@ -4,6 +4,7 @@
 #include "game/compare/camera.h"
 #include "game/live/scene_loading.h"
 #include "game/live/scene_reload.h"
+#include "game/play/play.h"
 #include "modules/measure/picture.h"
 #include "tests/support/file_tree.h"
 #include "tests/support/log_capture.h"
@@ -136,11 +137,16 @@ static bool wait_for_news(fixture *self)
     return true;
 }
 
+static nook_result go_on(void *game, nook_level *level, const nook_scene *scene, nook_game_world *world)
+{
+    return nook_play_go_on(game, level, scene, world);
+}
+
 static void reload(fixture *self, nook_play *play)
 {
     if (!wait_for_news(self))
         fail_msg("%s", nook_scene_reload_status_of(self->reload)->error);
-    assert_int_equal(nook_scene_reload_swap(self->reload, play), NOOK_OK);
+    assert_int_equal(nook_scene_reload_swap(self->reload, play ? go_on : NULL, play), NOOK_OK);
     assert_string_equal(nook_scene_reload_status_of(self->reload)->error, "");
 }
 
@@ -467,7 +473,7 @@ static void test_more_bodies_than_there_is_room_for_are_refused(void **state)
     self->f.stage.occluder_max = 2;
     play_room_write_scene("played.glb", MORE_CRATES);
     assert_true(wait_for_news(&self->f));
-    assert_int_equal(nook_scene_reload_swap(self->f.reload, &self->play), NOOK_E_RANGE);
+    assert_int_equal(nook_scene_reload_swap(self->f.reload, go_on, &self->play), NOOK_E_RANGE);
     assert_non_null(strstr(nook_scene_reload_status_of(self->f.reload)->error, "3 bodies, there is room for 2"));
     draw(&self->f, NOOK_VIEW_LIT, after);
     assert_true(same(before, after));
