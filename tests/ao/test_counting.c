@@ -33,12 +33,6 @@ static int setup(void **state)
     return 0;
 }
 
-static int teardown(void **state)
-{
-    ao_view_destroy(*state);
-    return 0;
-}
-
 /** Columns from `first` on show the wall. */
 static nook_fixture_view *start(void **state, uint32_t first)
 {
@@ -239,5 +233,5 @@ int main(void)
         cmocka_unit_test(test_values_of_the_filter_that_are_not_visibilities_are_counted_before_the_clamp),
         cmocka_unit_test(test_few_slices_block_no_more_than_all_of_the_sky),
     };
-    return cmocka_run_group_tests(tests, setup, teardown);
+    return cmocka_run_group_tests(tests, setup, ao_view_teardown);
 }

@@ -17,12 +17,6 @@ static int setup(void **state)
     return 0;
 }
 
-static int teardown(void **state)
-{
-    ao_view_destroy(*state);
-    return 0;
-}
-
 /** A picture of nothing, at half or quarter resolution. @return pixels of the picture per pixel of the trace */
 static uint32_t start(nook_fixture_view *view, uint32_t k, const char *downsample)
 {
@@ -158,5 +152,5 @@ int main(void)
         cmocka_unit_test(test_majority_of_a_plane_seen_from_its_edge_stays_near_what_was_seen),
         cmocka_unit_test(test_another_downsample_counts_for_a_view_that_stayed_the_same),
     };
-    return cmocka_run_group_tests(tests, setup, teardown);
+    return cmocka_run_group_tests(tests, setup, ao_view_teardown);
 }

@@ -28,12 +28,6 @@ static int setup(void **state)
     return 0;
 }
 
-static int teardown(void **state)
-{
-    ao_view_destroy(*state);
-    return 0;
-}
-
 static nook_fixture_view *start(void **state, uint32_t width, uint32_t height)
 {
     nook_fixture_view *view = *state;
@@ -343,5 +337,5 @@ int main(void)
         cmocka_unit_test(test_filter_never_writes_nan_whatever_the_buffers_hold),
         cmocka_unit_test(test_techniques_never_write_nan_whatever_the_buffers_hold),
     };
-    return cmocka_run_group_tests(tests, setup, teardown);
+    return cmocka_run_group_tests(tests, setup, ao_view_teardown);
 }

@@ -15,11 +15,7 @@ static const char *const slicemaps[] = { "one", "three" };
 /** Hard falloff and as many rays and tests as leave little but the voxels' own error. */
 static ao_fixture *prepare(void **state, const char *maps, const char *r_max)
 {
-    ao_fixture *fixture = *state;
-    ao_fixture_clear(fixture);
-    fixture->view_angle = 1e-3;
-    ao_fixture_param(fixture, "ao.falloff", "hard");
-    ao_fixture_param(fixture, "ao.r_max", r_max);
+    ao_fixture *fixture = ao_fixture_begin(state, r_max);
     ao_fixture_param(fixture, "hao.rays", "256");
     ao_fixture_param(fixture, "hao.tests", "256");
     ao_fixture_param(fixture, "hao.voxels", "128");
@@ -57,15 +53,6 @@ static void expect(ao_fixture *fixture, double truth, double within)
 
 /* ---- the own surface ---- */
 
-/** Direction k of 20: the axes' neighbourhood, edges, corners and slight tilts. */
-static void sweep_normal(int k, double n[3])
-{
-    static const double tilts[5] = { 0.0, 0.05, 0.3, 0.615479709, 0.785398163 }; /* 35.26 degrees: (1, 1, 1) */
-    static const double turns[4] = { 0.0, 0.785398163, 1.1, 2.5 };
-    double tilt = tilts[k / 4], turn = turns[k % 4];
-    n[0] = sin(tilt) * cos(turn), n[1] = sin(tilt) * sin(turn), n[2] = cos(tilt);
-}
-
 static void add_floor(ao_fixture *fixture, const double at[3], const double n[3])
 {
     double t[3], b[3], corner[3], edge_t[3], edge_b[3], size = 0.9;
@@ -88,9 +75,9 @@ static void test_an_open_floor_reads_nothing_at_any_tilt_and_place_in_the_voxels
         ao_fixture_param(fixture, "hao.tests", "64");
         ao_fixture_param(fixture, "hao.voxels", "64");
         fixture->view_angle = 0.6;
-        for (int k = 0; k < 20; k++) {
+        for (int k = 0; k < AO_FIXTURE_NORMALS; k++) {
             double n[3];
-            sweep_normal(k, n);
+            ao_fixture_normal(k, n);
             for (int phase = 0; phase < 8; phase++) {
                 const double at[3] = { 0.0031 * phase, 0.0017 * phase, 0.0041 * phase }; /* a voxel is some 0.03 */
                 ao_fixture_clear(fixture);

@@ -40,12 +40,6 @@ static int setup(void **state)
     return 0;
 }
 
-static int teardown(void **state)
-{
-    ao_view_destroy(*state);
-    return 0;
-}
-
 typedef float picture[PIXELS];
 
 static void record(nook_fixture_view *view, picture out)
@@ -411,5 +405,5 @@ int main(void)
         cmocka_unit_test(test_a_grid_that_the_device_cannot_hold_is_one_clear_line_and_the_next_record_works),
         cmocka_unit_test(test_memory_that_runs_out_anywhere_is_an_error_and_the_next_record_works),
     };
-    return cmocka_run_group_tests(tests, setup, teardown);
+    return cmocka_run_group_tests(tests, setup, ao_view_teardown);
 }

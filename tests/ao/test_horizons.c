@@ -31,12 +31,6 @@ static int setup(void **state)
     return 0;
 }
 
-static int teardown(void **state)
-{
-    ao_view_destroy(*state);
-    return 0;
-}
-
 /** Enough samples that their number does not matter. */
 static int converge(void **state)
 {
@@ -433,5 +427,5 @@ int main(void)
         cmocka_unit_test_setup(test_the_highest_numbers_of_samples_mean_the_same, converge),
         cmocka_unit_test_setup(test_hbao_ignores_what_is_below_its_bias, converge),
     };
-    return cmocka_run_group_tests(tests, setup, teardown);
+    return cmocka_run_group_tests(tests, setup, ao_view_teardown);
 }

@@ -34,12 +34,6 @@ static int setup(void **state)
     return 0;
 }
 
-static int teardown(void **state)
-{
-    ao_view_destroy(*state);
-    return 0;
-}
-
 /** After a record, so that the host's textures hold the picture. */
 static nook_ao_frame frame_of(nook_fixture_view *view)
 {
@@ -170,11 +164,11 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_occluders_of_a_pixel_are_the_boxes_it_lies_in_with_their_reach, setup,
-                                        teardown),
-        cmocka_unit_test_setup_teardown(test_texture_of_counts_of_another_size_is_refused, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_volume_is_found_in_the_atlas_with_its_voxels, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_volume_that_was_removed_is_refused, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_snapshot_holds_the_frame_and_its_instances, setup, teardown),
+                                        ao_view_teardown),
+        cmocka_unit_test_setup_teardown(test_texture_of_counts_of_another_size_is_refused, setup, ao_view_teardown),
+        cmocka_unit_test_setup_teardown(test_volume_is_found_in_the_atlas_with_its_voxels, setup, ao_view_teardown),
+        cmocka_unit_test_setup_teardown(test_volume_that_was_removed_is_refused, setup, ao_view_teardown),
+        cmocka_unit_test_setup_teardown(test_snapshot_holds_the_frame_and_its_instances, setup, ao_view_teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -48,12 +48,6 @@ static int setup(void **state)
     return 0;
 }
 
-static int teardown(void **state)
-{
-    ao_view_destroy(*state);
-    return 0;
-}
-
 static bool inside(const nook_rectangle *part, uint32_t x, uint32_t y)
 {
     return x >= part->x && x - part->x < part->width && y >= part->y && y - part->y < part->height;
@@ -254,5 +248,5 @@ int main(void)
         cmocka_unit_test(test_fetches_of_all_pixels_are_the_sum_that_is_counted),
         cmocka_unit_test(test_texture_of_fetches_of_another_size_is_refused),
     };
-    return cmocka_run_group_tests(tests, setup, teardown);
+    return cmocka_run_group_tests(tests, setup, ao_view_teardown);
 }

@@ -1,5 +1,4 @@
 /* Frames of different index are estimates of one truth that have nothing else to do with each other: they can be averaged. */
-#include "modules/measure/errors.h"
 #include "modules/measure/noise.h"
 #include "tests/support/ao_view.h"
 #include <math.h>
@@ -16,24 +15,10 @@ enum { SIDE = 64, PIXELS = SIDE * SIDE, SEEDS = 4 };
 static int setup(void **state)
 {
     nook_fixture_view *view = ao_view_create(SIDE, SIDE);
-    nook_fixture_mesh mesh = { 0 };
-    const double eye[3] = { 2.5, -3, 2.5 }, target[3] = { 0, 0, 0.2 }, up[3] = { 0, 0, 1 };
+    ao_view_add_yard(view, 9.0, 0);
     ao_view_param(view, "ao.falloff", "linear");
     ao_view_param(view, "ao.r_max", "3");
-    view->view_from_world = nook_matrix_look_at(eye, target, up);
-    nook_fixture_add_quad(&mesh, (double[]){ -9, -9, 0 }, (double[]){ 18, 0, 0 }, (double[]){ 0, 18, 0 });
-    nook_fixture_add_quad(&mesh, (double[]){ -9, 1, 0 }, (double[]){ 18, 0, 0 }, (double[]){ 0, 0, 9 });
-    nook_fixture_add_box(&mesh, (double[]){ -0.4, -0.5, 0 }, (double[]){ 0.6, 0.5, 1 }, 63);
-    ao_view_draw(view, &mesh);
-    ao_view_add(view, &mesh, 0);
-    nook_fixture_mesh_free(&mesh);
     *state = view;
-    return 0;
-}
-
-static int teardown(void **state)
-{
-    ao_view_destroy(*state);
     return 0;
 }
 
@@ -47,10 +32,7 @@ static void record(nook_fixture_view *view, const char *rays, uint32_t index, fl
 
 static double rmse(const float *picture, const float *truth)
 {
-    nook_errors errors;
-    assert_int_equal(nook_errors_measure(picture, truth, NULL, PIXELS, &errors), NOOK_OK);
-    assert_true(errors.valid);
-    return errors.rmse;
+    return ao_view_rmse(picture, truth, PIXELS);
 }
 
 static void test_the_mean_of_four_seeds_has_half_the_noise_of_one(void **state)
@@ -112,5 +94,5 @@ int main(void)
         cmocka_unit_test(test_errors_of_two_seeds_have_nothing_in_common),
         cmocka_unit_test(test_one_seed_gives_one_picture),
     };
-    return cmocka_run_group_tests(tests, setup, teardown);
+    return cmocka_run_group_tests(tests, setup, ao_view_teardown);
 }

@@ -1,5 +1,4 @@
 /* reference.sampling = tile: the rays and the filter of the techniques that march volumes, cast against the triangles. */
-#include "modules/measure/errors.h"
 #include "tests/support/ao_view.h"
 #include <math.h>
 #include <string.h>
@@ -15,25 +14,11 @@ enum { SIDE = 64, PIXELS = SIDE * SIDE };
 static int setup(void **state)
 {
     nook_fixture_view *view = ao_view_create(SIDE, SIDE);
-    nook_fixture_mesh mesh = { 0 };
-    const double eye[3] = { 2.5, -3, 2.5 }, target[3] = { 0, 0, 0.2 }, up[3] = { 0, 0, 1 };
-    view->view_from_world = nook_matrix_look_at(eye, target, up);
-    nook_fixture_add_quad(&mesh, (double[]){ -4, -4, 0 }, (double[]){ 8, 0, 0 }, (double[]){ 0, 8, 0 });
-    nook_fixture_add_quad(&mesh, (double[]){ -4, 1, 0 }, (double[]){ 8, 0, 0 }, (double[]){ 0, 0, 4 });
-    nook_fixture_add_box(&mesh, (double[]){ -0.4, -0.5, 0 }, (double[]){ 0.6, 0.5, 1 }, 63);
-    ao_view_draw(view, &mesh);
-    ao_view_add(view, &mesh, 256);
-    nook_fixture_mesh_free(&mesh);
+    ao_view_add_yard(view, 4.0, 256);
     ao_view_param(view, "ao.falloff", "hard");
     ao_view_param(view, "ao.r_max", "1.5");
     ao_view_param(view, "volume.kind", "surfel");
     *state = view;
-    return 0;
-}
-
-static int teardown(void **state)
-{
-    ao_view_destroy(*state);
     return 0;
 }
 
@@ -50,10 +35,7 @@ static void record(nook_fixture_view *view, const char *technique, const char *r
 
 static double rmse(const float *picture, const float *truth)
 {
-    nook_errors errors;
-    assert_int_equal(nook_errors_measure(picture, truth, NULL, PIXELS, &errors), NOOK_OK);
-    assert_true(errors.valid);
-    return errors.rmse;
+    return ao_view_rmse(picture, truth, PIXELS);
 }
 
 static uint32_t count_apart(const float a[PIXELS], const float b[PIXELS])
@@ -106,5 +88,5 @@ int main(void)
         cmocka_unit_test(test_tile_sampling_goes_through_the_filter_and_the_truth_does_not),
         cmocka_unit_test(test_surfels_of_open_boxes_are_as_right_as_the_same_rays_against_triangles),
     };
-    return cmocka_run_group_tests(tests, setup, teardown);
+    return cmocka_run_group_tests(tests, setup, ao_view_teardown);
 }

@@ -13,11 +13,7 @@ static const double origin[3] = { 0, 0, 0 }, up[3] = { 0, 0, 1 };
 
 static ao_fixture *prepare(void **state, const char *combine, const char *r_max)
 {
-    ao_fixture *fixture = *state;
-    ao_fixture_clear(fixture);
-    fixture->view_angle = 1e-3;
-    ao_fixture_param(fixture, "ao.falloff", "hard");
-    ao_fixture_param(fixture, "ao.r_max", r_max);
+    ao_fixture *fixture = ao_fixture_begin(state, r_max);
     ao_fixture_param(fixture, "volume.rays", "256");
     ao_fixture_param(fixture, "volume.steps", "512");
     ao_fixture_param(fixture, "volume.stepping", "matched");
@@ -51,15 +47,6 @@ static double add_tilted_floor(ao_fixture *fixture, const double at[3], const do
     return voxel;
 }
 
-/** Direction k of 20: the axes' neighbourhood, edges, corners and slight tilts. */
-static void sweep_normal(int k, double n[3])
-{
-    static const double tilts[5] = { 0.0, 0.05, 0.3, 0.615479709, 0.785398163 }; /* 35.26 degrees: (1, 1, 1) */
-    static const double turns[4] = { 0.0, 0.785398163, 1.1, 2.5 };
-    double tilt = tilts[k / 4], turn = turns[k % 4];
-    n[0] = sin(tilt) * cos(turn), n[1] = sin(tilt) * sin(turn), n[2] = cos(tilt);
-}
-
 static void check_floor_sweep(void **state, const char *guard, const char *stepping, const char *threshold, int every)
 {
     ao_fixture *fixture = prepare(state, "union", "0.4");
@@ -68,9 +55,9 @@ static void check_floor_sweep(void **state, const char *guard, const char *stepp
     ao_fixture_param(fixture, "volume.stepping", stepping);
     ao_fixture_param(fixture, "volume.threshold", threshold);
     fixture->view_angle = 0.6;
-    for (int k = 0; k < 20; k++) {
+    for (int k = 0; k < AO_FIXTURE_NORMALS; k++) {
         double n[3];
-        sweep_normal(k, n);
+        ao_fixture_normal(k, n);
         for (int phase = 0; phase < 64; phase += every) {
             ao_fixture_clear(fixture);
             double voxel = add_tilted_floor(fixture, origin, n, phase / 64.0);

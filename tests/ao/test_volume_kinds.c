@@ -157,59 +157,12 @@ static void test_without_lift_floors_of_distances_darken_themselves(void **state
         assert_true(measure_floor(fixture, 0.05 + step * 0.1) == 0.0);
 }
 
-enum { CELLS = 96, PIXELS = 48 };
-
-static double rough_height(int x, int y)
-{
-    uint32_t h = (uint32_t)x * 2654435761u ^ (uint32_t)y * 2246822519u;
-    h = (h ^ h >> 15) * 2654435761u;
-    return (h >> 16) / 65535.0 - 0.5;
-}
-
-/** Bumps of half a voxel, a third of a voxel apart, seen from above. */
-static void draw_rough_floor(nook_fixture_view *view)
-{
-    const double side = 2.0, voxel = side / 32, cell = side / CELLS, high = 0.5 * voxel;
-    nook_fixture_mesh mesh = { 0 };
-    for (int y = 0; y < CELLS; y++) {
-        for (int x = 0; x < CELLS; x++) {
-            double p[4][3];
-            for (int k = 0; k < 4; k++) {
-                int column = x + (k & 1), row = y + (k >> 1);
-                p[k][0] = column * cell - 0.5 * side, p[k][1] = row * cell - 0.5 * side;
-                p[k][2] = high * rough_height(column, row);
-            }
-            nook_fixture_add_triangle(&mesh, p[0], p[1], p[2]);
-            nook_fixture_add_triangle(&mesh, p[2], p[1], p[3]);
-        }
-    }
-    ao_view_resize(view, PIXELS, PIXELS);
-    ao_view_add(view, &mesh, 32);
-    view->view_from_world = nook_matrix_translation(0, 0, -1.5);
-    view->clip_from_view = nook_matrix_perspective_reversed(0.9, 1.0, 0.1);
-    nook_fixture_view_clear(view);
-    ao_view_draw(view, &mesh);
-    nook_fixture_mesh_free(&mesh);
-}
-
-static double mean_visibility(nook_fixture_view *view, const char *technique)
-{
-    ao_view_record(view, technique);
-    return 1.0 - nook_fixture_summarize(view, 0, 0, PIXELS, PIXELS).mean;
-}
-
 /** @param value  with which the constant does nothing */
 static void compare_rough_floor(void **state, const char *kind, const char *name, const char *value)
 {
-    ao_fixture *fixture = prepare(state, kind, "0.6");
-    ao_fixture_param(fixture, "volume.rays", "16");
-    ao_fixture_param(fixture, "reference.rays", "64");
-    draw_rough_floor(fixture->view);
-    double truth = mean_visibility(fixture->view, "reference"), with = mean_visibility(fixture->view, "volume");
-    ao_fixture_param(fixture, name, value);
-    double without = mean_visibility(fixture->view, "volume");
-    assert_true(without < with - 0.02);
-    assert_true(fabs(with - truth) < fabs(without - truth));
+    ao_rough_floor got = ao_fixture_measure_rough_floor(prepare(state, kind, "0.6"), name, value);
+    assert_true(got.without < got.with - 0.02);
+    assert_true(fabs(got.with - got.truth) < fabs(got.without - got.truth));
 }
 
 static void test_without_own_share_rough_floors_of_distances_darken_themselves(void **state)

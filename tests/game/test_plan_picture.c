@@ -147,15 +147,28 @@ static double largest_difference(const picture *a, const picture *b)
     return most;
 }
 
-/* Takes the picture as it comes and as planned. @return the largest difference of a pixel */
-static double compare(const shot *planned, uint32_t out_marched[2], uint32_t out_volumes[2])
+/* A picture as it comes and as planned: [0] and [1]. */
+typedef struct comparison {
+    nook_plan plan; /* of the second; nook_plan_free */
+    uint32_t left_out, marched[2], volumes[2];
+    double difference; /* the largest of a pixel */
+} comparison;
+
+static comparison compare(const char *scene, shot planned)
 {
     static picture pictures[2];
-    shot plain = *planned;
+    char path[1024];
+    comparison got;
+    snprintf(path, sizeof path, "%s", scene); /* what wrote it may write another */
+    planned.scene = path;
+    shot plain = planned;
     plain.plan.mode = NOOK_PLAN_OFF;
-    take(&plain, &pictures[0], &out_volumes[0], &out_marched[0]);
-    take(planned, &pictures[1], &out_volumes[1], &out_marched[1]);
-    return largest_difference(&pictures[0], &pictures[1]);
+    got.plan = plan_of(&planned);
+    got.left_out = count_left_out(&got.plan);
+    take(&plain, &pictures[0], &got.volumes[0], &got.marched[0]);
+    take(&planned, &pictures[1], &got.volumes[1], &got.marched[1]);
+    got.difference = largest_difference(&pictures[0], &pictures[1]);
+    return got;
 }
 
 /* ---- Tests ------------------------------------------------------------------------------------------------------ */
@@ -169,77 +182,63 @@ static shot cubes_shot(uint32_t rays, float error)
     return s;
 }
 
+static const char *hall_path(void)
+{
+    static char path[1024];
+    snprintf(path, sizeof path, "%s/content/hall/hall.glb", test_gpu_root());
+    return path;
+}
+
 static void test_many_small_bodies_change_no_pixel_of_so_many_rays_by_more_than_the_bound(void **state)
 {
     (void)state;
-    char path[1024];
-    uint32_t marched[2], volumes[2];
     shot s = cubes_shot(128, 0.1f);
     s.plan.rays = 128;
     s.later = "surfel";
-    snprintf(path, sizeof path, "%s", write_cubes(9, 2, 0.02, 0.8, 0.9));
-    s.scene = path;
-    nook_plan plan = plan_of(&s);
-    uint32_t left_out = count_left_out(&plan);
-    double difference = compare(&s, marched, volumes);
-    assert_true(left_out > 20);
-    assert_int_equal(marched[0], 163);
-    assert_int_equal(marched[1], 163 - left_out);
-    assert_true(plan.bound <= 0.1 + 1e-6);
-    assert_true(difference > 0.0); /* it is seen that they are gone */
-    assert_true(difference <= plan.bound + 1e-6);
-    nook_plan_free(&plan);
+    comparison got = compare(write_cubes(9, 2, 0.02, 0.8, 0.9), s);
+    assert_true(got.left_out > 20);
+    assert_int_equal(got.marched[0], 163);
+    assert_int_equal(got.marched[1], 163 - got.left_out);
+    assert_true(got.plan.bound <= 0.1 + 1e-6);
+    assert_true(got.difference > 0.0); /* it is seen that they are gone */
+    assert_true(got.difference <= got.plan.bound + 1e-6);
+    nook_plan_free(&got.plan);
 }
 
 static void test_a_body_of_some_size_takes_of_the_integral_what_its_bound_says_and_not_a_fifth_of_it_only(void **state)
 {
     (void)state;
-    char path[1024];
-    uint32_t marched[2], volumes[2];
-    shot s = cubes_shot(1024, 1.0f);
-    snprintf(path, sizeof path, "%s", write_cubes(1, 1, 0.2, 1.0, 1.0));
-    s.scene = path;
-    nook_plan plan = plan_of(&s);
-    double difference = compare(&s, marched, volumes);
-    assert_int_equal(count_left_out(&plan), 1);
-    assert_int_equal(volumes[1], volumes[0]); /* the reference keeps its triangles */
-    assert_int_equal(marched[1], marched[0] - 1);
-    assert_true(difference <= plan.bound);
-    assert_true(difference > 0.2 * plan.bound);
-    nook_plan_free(&plan);
+    comparison got = compare(write_cubes(1, 1, 0.2, 1.0, 1.0), cubes_shot(1024, 1.0f));
+    assert_int_equal(got.left_out, 1);
+    assert_int_equal(got.volumes[1], got.volumes[0]); /* the reference keeps its triangles */
+    assert_int_equal(got.marched[1], got.marched[0] - 1);
+    assert_true(got.difference <= got.plan.bound);
+    assert_true(got.difference > 0.2 * got.plan.bound);
+    nook_plan_free(&got.plan);
 }
 
 static void test_truth_is_never_planned(void **state)
 {
     (void)state;
-    char path[1024];
-    uint32_t marched[2], volumes[2];
     shot s = cubes_shot(16, 1.0f);
-    snprintf(path, sizeof path, "%s", write_cubes(3, 1, 0.2, 1.0, 1.0));
-    s.scene = path;
     s.technique = "reference";
-    nook_plan plan = plan_of(&s);
-    assert_true(count_left_out(&plan) > 0);
-    assert_true(compare(&s, marched, volumes) == 0.0);
-    nook_plan_free(&plan);
+    comparison got = compare(write_cubes(3, 1, 0.2, 1.0, 1.0), s);
+    assert_true(got.left_out > 0);
+    assert_true(got.difference == 0.0);
+    nook_plan_free(&got.plan);
 }
 
 static void test_the_demo_hall_is_within_the_bound(void **state)
 {
     (void)state;
-    char path[1024];
-    uint32_t marched[2], volumes[2];
     shot s = cubes_shot(8, 0.01f);
-    snprintf(path, sizeof path, "%s/content/hall/hall.glb", test_gpu_root());
-    s.scene = path;
     s.camera = "crates";
     s.r_max = 3.0;
-    nook_plan plan = plan_of(&s);
-    double difference = compare(&s, marched, volumes);
-    assert_true(difference <= plan.bound);
-    assert_int_equal(volumes[1], volumes[0] - 1); /* both kinds of drum are one mesh in two colours */
-    assert_true(plan.bytes < plan.bytes_before);
-    nook_plan_free(&plan);
+    comparison got = compare(hall_path(), s);
+    assert_true(got.difference <= got.plan.bound);
+    assert_int_equal(got.volumes[1], got.volumes[0] - 1); /* both kinds of drum are one mesh in two colours */
+    assert_true(got.plan.bytes < got.plan.bytes_before);
+    nook_plan_free(&got.plan);
 }
 
 /* Other voxels of the same triangles: close, and not the same. */
@@ -247,11 +246,9 @@ static void test_walls_of_the_hall_in_volumes_of_their_own_look_alike(void **sta
 {
     (void)state;
     static picture whole, split;
-    char path[1024];
     uint32_t marched[2], volumes[2];
     shot s = cubes_shot(32, 0.0f);
-    snprintf(path, sizeof path, "%s/content/hall/hall.glb", test_gpu_root());
-    s.scene = path;
+    s.scene = hall_path();
     s.camera = "hall";
     s.resolution = 128;
     s.r_max = 3.0;

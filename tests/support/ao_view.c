@@ -7,6 +7,7 @@
 #include "modules/ao_reference/reference.h"
 #include "modules/ao_ssao/ssao.h"
 #include "modules/ao_volume/volume.h"
+#include "modules/measure/errors.h"
 #include "tests/support/test_gpu.h"
 #include <stdlib.h>
 
@@ -114,4 +115,32 @@ void ao_view_record(nook_fixture_view *view, const char *technique)
 {
     assert_int_equal(nook_fixture_view_record(view, technique), NOOK_OK);
     assert_int_equal(view->outside, 0); /* never NaN, never out of range */
+}
+
+void ao_view_add_yard(nook_fixture_view *view, double reach, uint32_t resolution)
+{
+    const double eye[3] = { 2.5, -3, 2.5 }, target[3] = { 0, 0, 0.2 }, up[3] = { 0, 0, 1 };
+    const double across[3] = { 2 * reach, 0, 0 };
+    nook_fixture_mesh mesh = { 0 };
+    view->view_from_world = nook_matrix_look_at(eye, target, up);
+    nook_fixture_add_quad(&mesh, (double[]){ -reach, -reach, 0 }, across, (double[]){ 0, 2 * reach, 0 });
+    nook_fixture_add_quad(&mesh, (double[]){ -reach, 1, 0 }, across, (double[]){ 0, 0, reach });
+    nook_fixture_add_box(&mesh, (double[]){ -0.4, -0.5, 0 }, (double[]){ 0.6, 0.5, 1 }, 63);
+    ao_view_draw(view, &mesh);
+    ao_view_add(view, &mesh, resolution);
+    nook_fixture_mesh_free(&mesh);
+}
+
+int ao_view_teardown(void **state)
+{
+    ao_view_destroy(*state);
+    return 0;
+}
+
+double ao_view_rmse(const float *picture, const float *truth, size_t pixels)
+{
+    nook_errors errors;
+    assert_int_equal(nook_errors_measure(picture, truth, NULL, pixels, &errors), NOOK_OK);
+    assert_true(errors.valid);
+    return errors.rmse;
 }
