@@ -12,13 +12,6 @@ static bool read_backend(void *target, const char *text)
     return nook_backend_parse(text, target);
 }
 
-static nook_option make_text(const char *name, const char **target, const char *placeholder, const char *help)
-{
-    return (nook_option){
-        .name = name, .kind = NOOK_OPTION_TEXT, .target = target, .placeholder = placeholder, .help = help
-    };
-}
-
 nook_option nook_option_row_int(const char *name, int32_t *target, int32_t lowest, int32_t highest, const char *help)
 {
     return (nook_option){ .name = name,
@@ -33,6 +26,30 @@ nook_option nook_option_row_int(const char *name, int32_t *target, int32_t lowes
 nook_option nook_option_row_flag(const char *name, bool *target, const char *help)
 {
     return (nook_option){ .name = name, .kind = NOOK_OPTION_FLAG, .target = target, .help = help };
+}
+
+nook_option nook_option_row_text(const char *name, const char **target, const char *placeholder, const char *help)
+{
+    return (nook_option){
+        .name = name, .kind = NOOK_OPTION_TEXT, .target = target, .placeholder = placeholder, .help = help
+    };
+}
+
+nook_option nook_option_row_cpu(bool *target)
+{
+    return nook_option_row_flag(
+        "cpu", target, "time that all threads have computed, which a busy machine stretches less; software GL only");
+}
+
+nook_option nook_option_row_from(double *target, const char *help)
+{
+    return (nook_option){ .name = "from",
+                          .kind = NOOK_OPTION_NUMBER,
+                          .target = target,
+                          .placeholder = "SECONDS",
+                          .lowest = 0.0,
+                          .highest = 86400.0,
+                          .help = help };
 }
 
 nook_option nook_option_row_backend(nook_backend *target)
@@ -71,17 +88,17 @@ nook_option nook_option_row_r_max(double *target, const char *help)
 
 nook_option nook_option_row_falloff(const char **target)
 {
-    return make_text("falloff", target, "NAME", "hard, linear, quadratic, wendland or exponential");
+    return nook_option_row_text("falloff", target, "NAME", "hard, linear, quadratic, wendland or exponential");
 }
 
 nook_option nook_option_row_techniques(const char **target, const char *help)
 {
-    return make_text("techniques", target, "a,b,c", help);
+    return nook_option_row_text("techniques", target, "a,b,c", help);
 }
 
 nook_option nook_option_row_settings(const char **target, const char *help)
 {
-    return make_text("settings", target, "FILE", help);
+    return nook_option_row_text("settings", target, "FILE", help);
 }
 
 nook_option nook_option_row_reference_rays(int32_t *target, int32_t lowest, const char *help)
@@ -96,12 +113,12 @@ nook_option nook_option_row_resolution(int32_t *target, const char *help)
 
 nook_option nook_option_row_cache(const char **target, const char *help)
 {
-    return make_text("cache", target, "DIR", help);
+    return nook_option_row_text("cache", target, "DIR", help);
 }
 
 nook_option nook_option_row_json_file(const char **target)
 {
-    return make_text("out", target, "FILE", "also write everything as JSON");
+    return nook_option_row_text("out", target, "FILE", "also write everything as JSON");
 }
 
 nook_option nook_option_row_json(bool *target, const char *help)

@@ -13,6 +13,13 @@ nook_option nook_option_row_int(const char *name, int32_t *target, int32_t lowes
 /** The same: --name. */
 nook_option nook_option_row_flag(const char *name, bool *target, const char *help);
 
+/** The same: --name PLACEHOLDER, any text. */
+nook_option nook_option_row_text(const char *name, const char **target, const char *placeholder, const char *help);
+
+/** --cpu, of a bench. */
+nook_option nook_option_row_cpu(bool *target);
+/** --from SECONDS, into what is played; up to a day. */
+nook_option nook_option_row_from(double *target, const char *help);
 /** --backend NAME. */
 nook_option nook_option_row_backend(nook_backend *target);
 /** --size WxH, in pixels. */

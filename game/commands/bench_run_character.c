@@ -34,7 +34,7 @@ static bool read_options(const nook_app *app, int argc, char **argv, character_o
     out->cpu = false;
     const nook_option options[] = {
         nook_option_row_int("frames", &out->frames, 1, FRAMES_MAX, "timed, after two to warm up; default 30"),
-        nook_option_row_flag("cpu", &out->cpu, "time that all threads have computed; software GL only"),
+        nook_option_row_cpu(&out->cpu),
     };
     const nook_usage usage = {
         .command = "bench character",

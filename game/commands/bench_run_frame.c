@@ -31,9 +31,7 @@ static bool read_options(const nook_app *app, int argc, char **argv, frame_optio
     const nook_option options[] = {
         nook_option_row_int("frames", &out->frames, 1, FRAMES_MAX,
                             "timed of each camera, after two to warm up; default 20"),
-        nook_option_row_flag(
-            "cpu", &out->cpu,
-            "time that all threads have computed, which a busy machine stretches less; software GL only"),
+        nook_option_row_cpu(&out->cpu),
         nook_option_row_flag("quick", &out->quick, "draws as ./nook play does, not as for measuring"),
     };
     const nook_usage usage = {

@@ -277,9 +277,7 @@ static bool read_options(int argc, char **argv, occluders_options *out, int *out
         nook_option_row_int("most", &out->most, 1, COUNT_MAX, "occluders apart; default 4096"),
         nook_option_row_int("pile", &out->pile, 1, COUNT_MAX, "occluders piled up; default 64"),
         nook_option_row_int("frames", &out->frames, 1, FRAMES_MAX, "timed of each row; default 9"),
-        nook_option_row_flag(
-            "cpu", &out->cpu,
-            "time that all threads have computed, which a busy machine stretches less; software GL only"),
+        nook_option_row_cpu(&out->cpu),
         nook_option_row_backend(&out->backend),
     };
     const nook_usage usage = {

@@ -39,24 +39,13 @@ static bool read_options(const nook_app *app, int argc, char **argv, play_option
     out->replay = out->default_replay;
     out->cache = nook_option_default_cache(app, out->default_cache);
     const nook_option options[] = {
-        { .name = "replay",
-          .kind = NOOK_OPTION_TEXT,
-          .target = &out->replay,
-          .placeholder = "FILE",
-          .help = "the game; default: the one that comes with the engine house" },
+        nook_option_row_text("replay", &out->replay, "FILE",
+                             "the game; default: the one that comes with the engine house"),
         nook_option_row_settings(&out->settings, "technique and parameters; default: the level's"),
         nook_option_row_size(&out->size, "of the pictures in pixels; default 640x360"),
-        { .name = "from",
-          .kind = NOOK_OPTION_NUMBER,
-          .target = &out->from,
-          .placeholder = "SECONDS",
-          .lowest = 0.0,
-          .highest = 86400.0,
-          .help = "let so much of the replay pass before the first picture" },
+        nook_option_row_from(&out->from, "let so much of the replay pass before the first picture"),
         nook_option_row_int("frames", &out->frames, 1, INT32_MAX, "timed; default: to the end of the replay"),
-        nook_option_row_flag(
-            "cpu", &out->cpu,
-            "time that all threads have computed, which a busy machine stretches less; software GL only"),
+        nook_option_row_cpu(&out->cpu),
         nook_option_row_backend(&out->backend),
         nook_option_row_cache(&out->cache, "where baked volumes are kept; default: cache/ of Nook"),
     };

@@ -16,12 +16,6 @@ static bool read_seed(void *target, const char *text)
     return true;
 }
 
-static nook_option make_path(const char *name, const char **target, const char *help)
-{
-    return (
-        nook_option){ .name = name, .kind = NOOK_OPTION_TEXT, .target = target, .placeholder = "FILE", .help = help };
-}
-
 /* An option that would do nothing. @return its name, or NULL */
 static const char *find_idle(const nook_play_request *r)
 {
@@ -58,10 +52,8 @@ bool nook_play_request_read(const char *root, int argc, char **argv, nook_play_r
     };
     out->cache = nook_option_default_cache(&app, out->default_cache);
     const nook_option options[] = {
-        { .name = "headless",
-          .kind = NOOK_OPTION_FLAG,
-          .target = &out->headless,
-          .help = "without a window, as fast as it goes; nothing is drawn, but for --capture" },
+        nook_option_row_flag("headless", &out->headless,
+                             "without a window, as fast as it goes; nothing is drawn, but for --capture"),
         { .name = "seed",
           .kind = NOOK_OPTION_CUSTOM,
           .target = &out->desc,
@@ -69,31 +61,15 @@ bool nook_play_request_read(const char *root, int argc, char **argv, nook_play_r
           .read = read_seed,
           .expects = "a whole number below 2^32",
           .help = "of the physics; default: the replay's, else 1" },
-        make_path("record", &out->desc.record, "write what is pressed, tick by tick"),
-        make_path("replay", &out->desc.replay, "play what was recorded; then the player goes on"),
-        make_path("pilot", &out->desc.pilot, "play by a script of steps"),
+        nook_option_row_text("record", &out->desc.record, "FILE", "write what is pressed, tick by tick"),
+        nook_option_row_text("replay", &out->desc.replay, "FILE", "play what was recorded; then the player goes on"),
+        nook_option_row_text("pilot", &out->desc.pilot, "FILE", "play by a script of steps"),
         nook_option_row_settings(&out->settings,
                                  "technique and parameters, as ./nook tune writes them; default: the level's"),
         nook_option_row_size(&out->size, "of the window in pixels; default 1280x720"),
-        { .name = "out",
-          .kind = NOOK_OPTION_TEXT,
-          .target = &out->pictures,
-          .placeholder = "DIR",
-          .help = "where the pictures go that F12 takes; default out" },
-        { .name = "from",
-          .kind = NOOK_OPTION_NUMBER,
-          .target = &out->from,
-          .placeholder = "SECONDS",
-          .lowest = 0.0,
-          .highest = 86400.0,
-          .help = "let so much of the replay or pilot pass before the first picture" },
-        { .name = "frames",
-          .kind = NOOK_OPTION_INT,
-          .target = &out->frames,
-          .placeholder = "N",
-          .lowest = 1,
-          .highest = INT32_MAX,
-          .help = "end after so many pictures" },
+        nook_option_row_text("out", &out->pictures, "DIR", "where the pictures go that F12 takes; default out"),
+        nook_option_row_from(&out->from, "let so much of the replay or pilot pass before the first picture"),
+        nook_option_row_int("frames", &out->frames, 1, INT32_MAX, "end after so many pictures"),
         { .name = "capture",
           .kind = NOOK_OPTION_TEXT,
           .target = &out->capture,
