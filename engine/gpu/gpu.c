@@ -171,8 +171,17 @@ static void show_writes(nook_gpu *gpu)
                            GL_TEXTURE_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
 }
 
+/* GL promises that a dispatch sees what was drawn before it. llvmpipe runs it at once, beside draws that its
+   threads still are at: it read depths that were not there yet. For a barrier it waits. */
+static void wait_for_draws(nook_gpu *gpu)
+{
+    if (gpu->software)
+        gpu->gl->MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+}
+
 void nook_dispatch(nook_gpu *gpu, nook_program program, uint32_t x, uint32_t y, uint32_t z)
 {
+    wait_for_draws(gpu);
     nook_program_use(gpu, program);
     gpu->gl->DispatchCompute(x, y, z);
     show_writes(gpu);
@@ -181,6 +190,7 @@ void nook_dispatch(nook_gpu *gpu, nook_program program, uint32_t x, uint32_t y, 
 void nook_dispatch_indirect(nook_gpu *gpu, nook_program program, nook_buffer groups)
 {
     assert(groups.size >= 3 * sizeof(GLuint));
+    wait_for_draws(gpu);
     nook_program_use(gpu, program);
     gpu->gl->BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, groups.id);
     gpu->gl->DispatchComputeIndirect(0);
