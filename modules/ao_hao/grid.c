@@ -71,7 +71,9 @@ hao_box hao_box_transform(const hao_box *box, const nook_matrix *transform)
 
 /* ---- what the view may show ---- */
 
-enum { SIDES = 4, CORNERS_MAX = 4 + SIDES };
+/* A side adds a corner to a convex polygon, but half of all corners to one that rounding has made wavy, in the plane of the side: 4, 6, 9,
+   13, 19. */
+enum { SIDES = 4, CORNERS_MAX = 19 };
 
 /* Inside where dot(normal, point - eye) >= 0; the sides of the picture. */
 static void view_sides(const hao_view *view, double out_normals[SIDES][3])
@@ -92,7 +94,7 @@ typedef struct polygon {
     int count;
 } polygon;
 
-/* Sutherland, Hodgman 1974: what of a convex polygon is inside of a plane through the eye; a corner more at the most. */
+/* Sutherland, Hodgman 1974: what of a convex polygon is inside of a plane through the eye. */
 static polygon clipped(const polygon *from, const double eye[3], const double normal[3])
 {
     polygon out = { .count = 0 };
