@@ -7,8 +7,8 @@
  *
  * What software GL (llvmpipe, Mesa 22.3) asks of those who write passes:
  * - local_size_x is a multiple of 8, its lanes: 2 or 4 cost 1.4 to 1.7 times, and once 19 to 44 times, the time.
- * - A dispatch runs to its end inside nook_dispatch; draws only start. Time both around nook_gpu_finish. A dispatch does not wait by
- *   itself for draws whose results it reads: nook_dispatch does.
+ * - A dispatch runs to its end inside nook_dispatch; draws only start. Time both around nook_gpu_finish. Before that it
+ *   waits for all draws.
  * - Each thread gets one contiguous share of a dispatch's groups: background in one half idles a core.
  * - Timer queries lie: 0 ms for a dispatch of 100 ms. See nook_gpu_timer_trusted.
  * - Loads from storage buffers cost twice a texelFetch from a texture buffer; trilinear taps three times a nearest one.
