@@ -91,6 +91,7 @@ library("nook_overlay", c_project, "engine/overlay", "/**.c")
 library("nook_imgui", cpp_project, "engine/overlay", "/**.cpp") -- the shim around Dear ImGui, behind the overlay's header
 library("nook_bake", c_project, "modules/bake", "/**.c")
 library("nook_ao", c_project, "modules/ao", "/*.c")
+library("nook_stream", c_project, "modules/stream", "/**.c")
 library("nook_ao_ecs", c_project, "modules/ao/ecs", "/**.c") -- joins the two: the core itself knows no ECS
 library("nook_trace", c_project, "modules/trace", "/**.c")
 local techniques = os.matchdirs("modules/ao_*")

@@ -148,7 +148,9 @@ nook_result nook_ao_voxelize(nook_ao *ao, nook_ao_volume volume, const nook_ao_l
     fit_grid(mesh, &entry->box, &info);
     volume_atlas_set_info(&ao->atlases[NOOK_VOLUME_BINARY], volume.id, &info);
     result = draw_slices(ao, &info, mesh);
-    if (result == NOOK_OK)
-        merge_slices(ao, entry, merge);
-    return result;
+    if (result != NOOK_OK)
+        return result;
+    merge_slices(ao, entry, merge);
+    volume_atlas_note(&ao->atlases[NOOK_VOLUME_BINARY], &entry->box);
+    return NOOK_OK;
 }

@@ -186,6 +186,8 @@ static nook_ao_pass make_pass(nook_ao *ao, const nook_ao_frame *frame, uint32_t 
         .progress_user = ao->progress_user,
         .volume_atlas = atlas->texture,
         .volume_atlas_version = atlas->version,
+        .volume_atlas_change_count = atlas->changes.count,
+        .volume_atlas_changes = atlas->changes.boxes,
         .bricks = ao->pool.bricks.texture,
         .surfels = ao->pool.surfels.texture,
         .line_max = ao->line_max,

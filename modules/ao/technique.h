@@ -14,7 +14,15 @@
 extern "C" {
 #endif
 
-#define NOOK_AO_TECHNIQUE_VERSION 7
+#define NOOK_AO_TECHNIQUE_VERSION 8
+
+/** A box of voxels. */
+typedef struct nook_ao_box {
+    uint32_t origin[3], size[3];
+} nook_ao_box;
+
+enum { NOOK_AO_CHANGES_MAX = 8 };
+#define NOOK_AO_CHANGED_ALL UINT32_MAX
 
 /** Triangles for the reference, in mesh space. */
 typedef struct nook_ao_mesh_view {
@@ -69,9 +77,12 @@ typedef struct nook_ao_pass {
     nook_texture volume_atlas; /**< R8 3D, of the kind that is marched, but for surfels. Binding 2. */
     uint32_t
         volume_atlas_version; /**< Another one when the atlas, or what it holds, is another: for what is made of it. */
-    nook_texture bricks;      /**< Texture buffer RGBA32UI, of all surfel volumes: docs/surfel_bricks.md. Binding 5. */
-    nook_texture surfels;     /**< Texture buffer RG32UI. Binding 6. */
-    uint32_t line_max;        /**< More voxels than this no straight line crosses in any of the occluders. */
+    /** Where the atlas has changed since the version before, if it is as large as it was then; NOOK_AO_CHANGED_ALL: anywhere. */
+    uint32_t volume_atlas_change_count;
+    const nook_ao_box *volume_atlas_changes;
+    nook_texture bricks;  /**< Texture buffer RGBA32UI, of all surfel volumes: docs/surfel_bricks.md. Binding 5. */
+    nook_texture surfels; /**< Texture buffer RG32UI. Binding 6. */
+    uint32_t line_max;    /**< More voxels than this no straight line crosses in any of the occluders. */
     nook_texture occluder_texture; /**< RGBA32F of a buffer: the occluders' rows. Binding 3. */
     nook_buffer occluders;         /**< That buffer. */
     uint32_t occluder_count;

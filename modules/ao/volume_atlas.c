@@ -11,129 +11,57 @@ void volume_atlas_init(volume_atlas *atlas, nook_gpu *gpu)
 
 void volume_atlas_release(volume_atlas *atlas)
 {
-    for (uint32_t i = 0; i < atlas->entry_count; i++)
-        free(atlas->entries[i].pending);
-    free(atlas->entries);
-    free(atlas->free_boxes);
+    for (uint32_t i = 0; i < atlas->seen.count; i++)
+        free(atlas->seen.items[i].pending);
+    free(atlas->seen.items);
+    free(atlas->incoming.items);
+    box_tree_release(&atlas->tree);
     if (atlas->gpu)
         nook_texture_destroy(atlas->gpu, &atlas->texture);
     *atlas = (volume_atlas){ 0 };
 }
 
-static uint64_t box_voxels(const uint32_t size[3])
-{
-    return (uint64_t)size[0] * size[1] * size[2];
-}
+/* ---- Entries ----------------------------------------------------------------------------------------------------- */
 
-static int box_holds(const atlas_box *box, const uint32_t size[3])
+bool atlas_entries_reserve(atlas_entries *entries, uint32_t count)
 {
-    return box->size[0] >= size[0] && box->size[1] >= size[1] && box->size[2] >= size[2];
-}
-
-/** Grows an array of `item_size` so that one more fits. @return 0 when there is no memory */
-static int reserve_one(void **items, uint32_t count, uint32_t *capacity, size_t item_size)
-{
-    if (count < *capacity)
-        return 1;
-    uint32_t wanted = *capacity ? *capacity * 2 : 16;
-    void *grown = realloc(*items, wanted * item_size);
+    uint32_t capacity = entries->capacity ? entries->capacity : 16;
+    while (capacity < count)
+        capacity *= 2;
+    if (capacity == entries->capacity)
+        return true;
+    atlas_entry *grown = realloc(entries->items, capacity * sizeof *grown);
     if (!grown)
-        return 0;
-    *items = grown;
-    *capacity = wanted;
-    return 1;
+        return false;
+    entries->items = grown;
+    entries->capacity = capacity;
+    return true;
 }
 
-/** Empty boxes are dropped; without memory the space is lost until the atlas is released, nothing else. */
-static void add_free_box(volume_atlas *atlas, const atlas_box *box)
+bool volume_atlas_reserve(volume_atlas *atlas)
 {
-    if (box_voxels(box->size) == 0)
+    uint32_t more = atlas->incoming.count + 1;
+    return atlas_entries_reserve(&atlas->incoming, more) &&
+           atlas_entries_reserve(&atlas->seen, atlas->seen.count + more);
+}
+
+/** Once nothing is left (a level is over), all of it goes, and its memory with it. */
+void volume_atlas_release_when_empty(volume_atlas *atlas)
+{
+    const uint32_t nothing[3] = { 0, 0, 0 };
+    if (atlas->seen.count > 0 || atlas->incoming.count > 0 || atlas->has_room)
         return;
-    if (reserve_one((void **)&atlas->free_boxes, atlas->free_count, &atlas->free_capacity, sizeof *box))
-        atlas->free_boxes[atlas->free_count++] = *box;
-}
-
-/** Takes `size` from the corner of the smallest free box that holds it; the rest is cut into three free boxes. */
-static int take_free_box(volume_atlas *atlas, const uint32_t size[3], atlas_box *out)
-{
-    uint32_t best = UINT32_MAX;
-    for (uint32_t i = 0; i < atlas->free_count; i++) {
-        const atlas_box *box = &atlas->free_boxes[i];
-        if (box_holds(box, size) &&
-            (best == UINT32_MAX || box_voxels(box->size) < box_voxels(atlas->free_boxes[best].size)))
-            best = i;
-    }
-    if (best == UINT32_MAX)
-        return 0;
-    atlas_box box = atlas->free_boxes[best];
-    atlas->free_boxes[best] = atlas->free_boxes[--atlas->free_count];
-    *out = (atlas_box){ { box.origin[0], box.origin[1], box.origin[2] }, { size[0], size[1], size[2] } };
-    atlas_box rest = box;
-    for (int axis = 0; axis < 3; axis++) {
-        atlas_box cut = rest;
-        cut.origin[axis] += size[axis];
-        cut.size[axis] -= size[axis];
-        add_free_box(atlas, &cut);
-        rest.size[axis] = size[axis];
-    }
-    return 1;
-}
-
-static void extend(volume_atlas *atlas, int axis, uint32_t by)
-{
-    atlas_box slab = { { 0, 0, 0 }, { atlas->size[0], atlas->size[1], atlas->size[2] } };
-    slab.origin[axis] = atlas->size[axis];
-    slab.size[axis] = by;
-    atlas->size[axis] += by;
-    add_free_box(atlas, &slab);
-}
-
-/** Extends the atlas along the axis that costs least, so that a box of `size` fits. @return 0: the device's limit */
-static int grow_for(volume_atlas *atlas, const uint32_t size[3])
-{
-    int best = -1;
-    uint64_t best_voxels = UINT64_MAX;
-    for (int axis = 0; axis < 3; axis++) {
-        uint32_t grown[3];
-        int allowed = 1;
-        for (int k = 0; k < 3; k++) {
-            grown[k] = atlas->size[k] > size[k] ? atlas->size[k] : size[k];
-            if (k == axis)
-                grown[k] = atlas->size[k] + size[k];
-            allowed = allowed && grown[k] <= atlas->gpu->max_texture_3d_size;
-        }
-        if (allowed && box_voxels(grown) < best_voxels) {
-            best = axis;
-            best_voxels = box_voxels(grown);
-        }
-    }
-    if (best < 0)
-        return 0;
-    for (int k = 0; k < 3; k++) {
-        if (k != best && atlas->size[k] < size[k])
-            extend(atlas, k, size[k] - atlas->size[k]);
-    }
-    extend(atlas, best, size[best]);
-    return 1;
-}
-
-/** Free boxes are never joined; but once nothing is left (a level is over), all of it goes, and its memory with it. */
-static void release_when_empty(volume_atlas *atlas)
-{
-    if (atlas->entry_count > 0)
-        return;
-    atlas->free_count = 0;
-    memset(atlas->size, 0, sizeof atlas->size);
+    box_tree_reset(&atlas->tree, nothing);
     nook_texture_destroy(atlas->gpu, &atlas->texture);
 }
 
 /** The place of an id, or where it belongs. */
 static uint32_t entry_place(const volume_atlas *atlas, uint32_t id)
 {
-    uint32_t first = 0, end = atlas->entry_count;
+    uint32_t first = 0, end = atlas->seen.count;
     while (first < end) {
         uint32_t middle = first + (end - first) / 2;
-        if (atlas->entries[middle].id < id)
+        if (atlas->seen.items[middle].id < id)
             first = middle + 1;
         else
             end = middle;
@@ -144,23 +72,36 @@ static uint32_t entry_place(const volume_atlas *atlas, uint32_t id)
 static uint32_t entry_index(const volume_atlas *atlas, uint32_t id)
 {
     uint32_t first = entry_place(atlas, id);
-    return first < atlas->entry_count && atlas->entries[first].id == id ? first : UINT32_MAX;
+    return first < atlas->seen.count && atlas->seen.items[first].id == id ? first : UINT32_MAX;
+}
+
+void volume_atlas_put(volume_atlas *atlas, const atlas_entry *entry)
+{
+    uint32_t place = entry_place(atlas, entry->id);
+    if (place < atlas->seen.count && atlas->seen.items[place].id == entry->id) {
+        box_tree_give(&atlas->tree, atlas->seen.items[place].place);
+        free(atlas->seen.items[place].pending);
+    } else {
+        assert(atlas->seen.count < atlas->seen.capacity);
+        memmove(atlas->seen.items + place + 1, atlas->seen.items + place,
+                (atlas->seen.count++ - place) * sizeof *atlas->seen.items);
+    }
+    atlas->seen.items[place] = *entry;
 }
 
 nook_result volume_atlas_add(volume_atlas *atlas, uint32_t id, nook_volume *volume)
 {
     const uint32_t size[3] = { volume->info.width, volume->info.height, volume->info.depth };
-    uint32_t place = entry_place(atlas, id);
-    assert(place == atlas->entry_count || atlas->entries[place].id != id);
-    if (!reserve_one((void **)&atlas->entries, atlas->entry_count, &atlas->entry_capacity, sizeof *atlas->entries))
+    assert(!volume_atlas_find(atlas, id));
+    if (!volume_atlas_reserve(atlas))
         return nook_fail(NOOK_E_MEMORY, "no memory for another volume");
     atlas_entry entry = { .id = id, .info = volume->info, .pending = volume->voxels };
-    if (!take_free_box(atlas, size, &entry.box) && !(grow_for(atlas, size) && take_free_box(atlas, size, &entry.box)))
+    if (!box_tree_take(&atlas->tree, size, &entry.box, &entry.place) &&
+        !(box_tree_grow(&atlas->tree, size, atlas->gpu->max_texture_3d_size) &&
+          box_tree_take(&atlas->tree, size, &entry.box, &entry.place)))
         return nook_fail(NOOK_E_MEMORY, "a volume of %ux%ux%u voxels does not fit any more: bake at a lower resolution",
                          size[0], size[1], size[2]);
-    memmove(atlas->entries + place + 1, atlas->entries + place,
-            (atlas->entry_count++ - place) * sizeof *atlas->entries);
-    atlas->entries[place] = entry;
+    volume_atlas_put(atlas, &entry);
     *volume = (nook_volume){ 0 };
     return NOOK_OK;
 }
@@ -170,34 +111,55 @@ void volume_atlas_remove(volume_atlas *atlas, uint32_t id)
     uint32_t i = entry_index(atlas, id);
     if (i == UINT32_MAX)
         return;
-    add_free_box(atlas, &atlas->entries[i].box);
-    free(atlas->entries[i].pending);
-    memmove(atlas->entries + i, atlas->entries + i + 1, (--atlas->entry_count - i) * sizeof *atlas->entries);
-    release_when_empty(atlas);
+    box_tree_give(&atlas->tree, atlas->seen.items[i].place);
+    free(atlas->seen.items[i].pending);
+    memmove(atlas->seen.items + i, atlas->seen.items + i + 1, (--atlas->seen.count - i) * sizeof *atlas->seen.items);
+    volume_atlas_release_when_empty(atlas);
 }
 
 const atlas_entry *volume_atlas_find(const volume_atlas *atlas, uint32_t id)
 {
     uint32_t i = entry_index(atlas, id);
-    return i == UINT32_MAX ? NULL : &atlas->entries[i];
+    return i == UINT32_MAX ? NULL : &atlas->seen.items[i];
 }
 
 void volume_atlas_set_info(volume_atlas *atlas, uint32_t id, const nook_volume_info *info)
 {
     uint32_t i = entry_index(atlas, id);
     if (i != UINT32_MAX)
-        atlas->entries[i].info = *info;
+        atlas->seen.items[i].info = *info;
 }
 
-/** Replaces the texture by a larger one and copies what was there. */
-static nook_result grow_texture(volume_atlas *atlas)
+/* ---- The texture --------------------------------------------------------------------------------------------------- */
+
+void volume_atlas_note(volume_atlas *atlas, const atlas_box *box)
+{
+    atlas_changes *next = &atlas->next;
+    if (next->count >= NOOK_AO_CHANGES_MAX) {
+        next->count = NOOK_AO_CHANGED_ALL;
+        return;
+    }
+    next->boxes[next->count++] = *box;
+}
+
+/* What has changed makes a version. */
+static void publish(volume_atlas *atlas)
+{
+    if (atlas->next.count == 0)
+        return;
+    atlas->changes = atlas->next;
+    atlas->next.count = 0;
+    atlas->version++;
+}
+
+nook_result volume_atlas_grow(volume_atlas *atlas)
 {
     nook_texture old = atlas->texture, grown;
-    if (old.id && old.width == atlas->size[0] && old.height == atlas->size[1] && old.depth == atlas->size[2])
+    const uint32_t *size = atlas->tree.size;
+    if (old.id && old.width == size[0] && old.height == size[1] && old.depth == size[2])
         return NOOK_OK;
     nook_gpu *gpu = atlas->gpu;
-    nook_result result =
-        nook_texture_create_3d(gpu, GL_R8, atlas->size[0], atlas->size[1], atlas->size[2], GL_LINEAR, &grown);
+    nook_result result = nook_texture_create_3d(gpu, GL_R8, size[0], size[1], size[2], GL_LINEAR, &grown);
     if (result != NOOK_OK)
         return result;
     if (old.id) {
@@ -206,31 +168,32 @@ static nook_result grow_texture(volume_atlas *atlas)
         nook_texture_destroy(gpu, &old);
     }
     atlas->texture = grown;
-    atlas->version++;
+    atlas->next.count = NOOK_AO_CHANGED_ALL;
     return NOOK_OK;
 }
 
 nook_result volume_atlas_flush(volume_atlas *atlas)
 {
-    if (atlas->entry_count == 0)
+    if (atlas->seen.count == 0 && atlas->incoming.count == 0 && !atlas->has_room)
         return NOOK_OK;
-    nook_result result = grow_texture(atlas);
+    nook_result result = volume_atlas_grow(atlas);
     if (result != NOOK_OK)
         return result;
-    for (uint32_t i = 0; i < atlas->entry_count; i++) {
-        atlas_entry *entry = &atlas->entries[i];
+    for (uint32_t i = 0; i < atlas->seen.count; i++) {
+        atlas_entry *entry = &atlas->seen.items[i];
         if (!entry->pending)
             continue;
         nook_texture_write_box(atlas->gpu, atlas->texture, entry->box.origin, entry->box.size, GL_RED, GL_UNSIGNED_BYTE,
                                entry->pending, (size_t)box_voxels(entry->box.size));
         free(entry->pending);
         entry->pending = NULL;
-        atlas->version++;
+        volume_atlas_note(atlas, &entry->box);
     }
+    publish(atlas);
     return NOOK_OK;
 }
 
 uint64_t volume_atlas_bytes(const volume_atlas *atlas)
 {
-    return box_voxels(atlas->size);
+    return box_voxels(atlas->tree.size);
 }

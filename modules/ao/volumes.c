@@ -1,5 +1,6 @@
 #include "engine/core/log.h"
 #include "modules/ao/ao_internal.h"
+#include "modules/ao/residency.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -99,9 +100,10 @@ nook_result nook_ao_extend_volume(nook_ao *ao, nook_ao_volume volume, const char
 void nook_ao_remove_volume(nook_ao *ao, nook_ao_volume volume)
 {
     ao_volume_id_give(ao, volume.id);
-    for (int kind = 0; kind < NOOK_VOLUME_KINDS; kind++)
-        volume_atlas_remove(&ao->atlases[kind], volume.id);
-    brick_pool_remove(&ao->pool, volume.id);
+    for (int kind = 0; kind < NOOK_VOLUME_KINDS; kind++) {
+        nook_ao_unplace_volume(ao, volume, (nook_volume_kind)kind);
+        nook_ao_drop_volume(ao, volume, (nook_volume_kind)kind);
+    }
 }
 
 /* ---- On demand -------------------------------------------------------------------------------------------------- */

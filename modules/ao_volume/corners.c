@@ -1,7 +1,8 @@
 #include "modules/ao_volume/corners.h"
 #include "engine/core/log.h"
+#include <stdbool.h>
 
-enum { TILE_SIZE = 8, CELLS_PER_INVOCATION = 4, BINDING_ATLAS = 2 };
+enum { TILE_SIZE = 8, CELLS_PER_INVOCATION = 4, BINDING_ATLAS = 2, LOCATION_BEGIN = 0, LOCATION_END = 1 };
 
 void volume_corners_release(volume_corners *corners, nook_gpu *gpu)
 {
@@ -25,6 +26,23 @@ static nook_result make_room(volume_corners *corners, const nook_ao_pass *pass)
     return result == NOOK_OK ? nook_texture_create_buffer(gpu, GL_R8UI, corners->buffer, &corners->texture) : result;
 }
 
+/* Of a box: its own cells, and those before it, which read its first voxels. */
+static void make(volume_corners *corners, nook_gpu *gpu, nook_program program, const nook_ao_box *box)
+{
+    int32_t begin[3], end[3];
+    for (int axis = 0; axis < 3; axis++) {
+        begin[axis] = box->origin[axis] > 0 ? (int32_t)box->origin[axis] - 1 : 0;
+        end[axis] = (int32_t)(box->origin[axis] + box->size[axis]);
+    }
+    nook_bind_image(gpu, 0, corners->texture, GL_WRITE_ONLY);
+    nook_program_use(gpu, program);
+    nook_uniform_int(gpu, LOCATION_BEGIN, begin, 3);
+    nook_uniform_int(gpu, LOCATION_END, end, 3);
+    nook_dispatch(gpu, program,
+                  nook_groups(nook_groups((uint32_t)(end[0] - begin[0]), CELLS_PER_INVOCATION), TILE_SIZE),
+                  nook_groups((uint32_t)(end[1] - begin[1]), TILE_SIZE), (uint32_t)(end[2] - begin[2]));
+}
+
 nook_result volume_corners_fit(volume_corners *corners, const nook_ao_pass *pass)
 {
     nook_gpu *gpu = pass->gpu;
@@ -32,6 +50,8 @@ nook_result volume_corners_fit(volume_corners *corners, const nook_ao_pass *pass
     nook_program program;
     if (corners->texture.id != 0 && corners->version == pass->volume_atlas_version)
         return NOOK_OK;
+    bool follows = corners->texture.id != 0 && corners->version + 1 == pass->volume_atlas_version &&
+                   pass->volume_atlas_change_count != NOOK_AO_CHANGED_ALL;
     nook_result result = make_room(corners, pass);
     if (result == NOOK_OK)
         result = nook_program_compute(gpu, "shaders/ao/corners.comp.glsl", "", &program);
@@ -40,9 +60,10 @@ nook_result volume_corners_fit(volume_corners *corners, const nook_ao_pass *pass
         return result;
     }
     nook_bind_texture(gpu, BINDING_ATLAS, *atlas);
-    nook_bind_image(gpu, 0, corners->texture, GL_WRITE_ONLY);
-    nook_dispatch(gpu, program, nook_groups(nook_groups(atlas->width, CELLS_PER_INVOCATION), TILE_SIZE),
-                  nook_groups(atlas->height, TILE_SIZE), atlas->depth);
+    if (!follows)
+        make(corners, gpu, program, &(nook_ao_box){ { 0, 0, 0 }, { atlas->width, atlas->height, atlas->depth } });
+    for (uint32_t i = 0; follows && i < pass->volume_atlas_change_count; i++)
+        make(corners, gpu, program, &pass->volume_atlas_changes[i]);
     corners->version = pass->volume_atlas_version;
     return NOOK_OK;
 }

@@ -45,6 +45,7 @@ static void test_corners_hold_the_eight_voxels_of_every_cell_and_follow_the_atla
             voxels[i] = (i * 2654435761u * turn >> 13) % 3 == 0 ? 255 : 0;
         nook_texture_write(gpu, pass.volume_atlas, GL_RED, GL_UNSIGNED_BYTE, voxels, sizeof voxels);
         pass.volume_atlas_version = turn;
+        pass.volume_atlas_change_count = NOOK_AO_CHANGED_ALL;
         assert_int_equal(volume_corners_fit(&corners, &pass), NOOK_OK);
         expect_corners(gpu, &corners, voxels);
     }

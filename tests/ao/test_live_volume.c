@@ -197,6 +197,26 @@ static void test_a_volume_made_anew_forgets_what_was_in_it(void **state)
     close_fixture(&f);
 }
 
+static void test_what_is_made_of_the_atlas_learns_of_a_volume_made_anew(void **state)
+{
+    nook_gpu *gpu = test_gpu_of(state);
+    static soup s;
+    make_soup(&s, 7);
+    fixture f = open_fixture(gpu, &s);
+    voxelize(&f);
+    volume_atlas *atlas = &f.ao->atlases[NOOK_VOLUME_BINARY];
+    assert_int_equal(volume_atlas_flush(atlas), NOOK_OK);
+    uint32_t version = atlas->version;
+    assert_int_equal(volume_atlas_flush(atlas), NOOK_OK);
+    assert_int_equal(atlas->version, version); /* nothing has happened */
+    voxelize(&f);
+    assert_int_equal(volume_atlas_flush(atlas), NOOK_OK);
+    assert_int_equal(atlas->version, version + 1);
+    assert_int_equal(atlas->changes.count, 1);
+    assert_memory_equal(&atlas->changes.boxes[0], &volume_atlas_find(atlas, f.volume.id)->box, sizeof(nook_ao_box));
+    close_fixture(&f);
+}
+
 static void test_grids_move_by_whole_voxels(void **state)
 {
     nook_gpu *gpu = test_gpu_of(state);
@@ -332,6 +352,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_slicemaps_mark_what_the_bake_marks, test_gpu_setup, test_gpu_teardown),
         cmocka_unit_test_setup_teardown(test_a_volume_made_anew_forgets_what_was_in_it, test_gpu_setup,
+                                        test_gpu_teardown),
+        cmocka_unit_test_setup_teardown(test_what_is_made_of_the_atlas_learns_of_a_volume_made_anew, test_gpu_setup,
                                         test_gpu_teardown),
         cmocka_unit_test_setup_teardown(test_grids_move_by_whole_voxels, test_gpu_setup, test_gpu_teardown),
         cmocka_unit_test_setup_teardown(test_parts_stand_where_their_matrices_put_them, test_gpu_setup,

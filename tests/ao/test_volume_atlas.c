@@ -56,14 +56,14 @@ static int overlap(const atlas_box *a, const atlas_box *b)
 
 static void check_boxes(const volume_atlas *atlas)
 {
-    for (uint32_t i = 0; i < atlas->entry_count; i++) {
-        const atlas_box *box = &atlas->entries[i].box;
+    for (uint32_t i = 0; i < atlas->seen.count; i++) {
+        const atlas_box *box = &atlas->seen.items[i].box;
         for (int axis = 0; axis < 3; axis++)
-            assert_true(box->origin[axis] + box->size[axis] <= atlas->size[axis]);
+            assert_true(box->origin[axis] + box->size[axis] <= atlas->tree.size[axis]);
         for (uint32_t k = 0; k < i; k++)
-            assert_false(overlap(box, &atlas->entries[k].box));
-        for (uint32_t k = 0; k < atlas->free_count; k++)
-            assert_false(overlap(box, &atlas->free_boxes[k]));
+            assert_false(overlap(box, &atlas->seen.items[k].box));
+        for (uint32_t k = 0; k < atlas->tree.count; k++)
+            assert_false(atlas->tree.nodes[k].state == BOX_FREE && overlap(box, &atlas->tree.nodes[k].box));
     }
 }
 
