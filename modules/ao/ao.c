@@ -89,6 +89,7 @@ void nook_ao_destroy(nook_ao *ao)
     for (uint32_t i = 0; i < ao->slot_count; i++)
         ao_slot_release(ao, &ao->slots[i]);
     ao_targets_release(ao->gpu, &ao->targets);
+    ao_refine_release(ao->gpu, &ao->refine);
     for (int kind = 0; kind < NOOK_VOLUME_KINDS; kind++)
         volume_atlas_release(&ao->atlases[kind]);
     brick_pool_release(&ao->pool);

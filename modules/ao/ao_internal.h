@@ -5,6 +5,7 @@
 #include "modules/ao/brick_pool_internal.h"
 #include "modules/ao/mesh_alphas_internal.h"
 #include "modules/ao/nook_ao.h"
+#include "modules/ao/refine_internal.h"
 #include "modules/ao/slicemap.h"
 #include "modules/ao/technique.h"
 #include "modules/ao/volume_atlas_internal.h"
@@ -89,6 +90,7 @@ struct nook_ao {
     ao_slot slots[AO_TECHNIQUE_MAX];
     uint32_t slot_count, current;
     ao_targets targets;
+    ao_refine refine;
     nook_buffer frame, occluder_buffer, counter;
     uint32_t nearest_sampler;                /**< Of the host's textures. */
     nook_texture occluder_texture;           /**< The buffer's rows as texels. */
@@ -113,6 +115,7 @@ struct nook_ao {
     uint32_t kinds;     /**< Of the last record: ao_work. */
     uint32_t line_max;  /**< Of the last record: nook_ao_pass. */
     int counting;       /**< Of the last record: frame.counting of shaders/ao/counter.glsl. */
+    int refining;       /**< Of the last record: ao_refining. */
 };
 
 void ao_slot_release(nook_ao *ao, ao_slot *slot); /**< By its technique's code. */
@@ -131,6 +134,9 @@ uint64_t ao_targets_bytes(const ao_targets *targets, uint32_t scale); /**< Those
 
 enum { AO_BINDING_COUNTER = 7 };
 
+/** What becomes of pixels that upscaling has too little for: refine_internal.h. */
+enum ao_refining { AO_REFINING_NOTHING, AO_REFINING_AROUND, AO_REFINING_TRACED };
+
 /** What a record asks of ao_begin. */
 typedef struct ao_work {
     uint32_t inputs; /**< NOOK_AO_IN_*. */
@@ -138,6 +144,7 @@ typedef struct ao_work {
     uint32_t scale;  /**< Of the trace: its exponent. */
     int32_t passes;  /**< After the trace, that read pixels around: ao_region_make. */
     int counting;    /**< frame.counting of shaders/ao/counter.glsl. */
+    int refining;    /**< ao_refining. */
 } ao_work;
 
 /**
@@ -149,6 +156,10 @@ nook_result ao_begin(nook_ao *ao, const nook_ao_frame *frame, const ao_work *wor
 nook_result ao_fill_inputs(nook_ao *ao, const nook_ao_frame *frame);
 /** From the trace's visibility to that of the picture. */
 nook_result ao_filter(nook_ao *ao, const nook_ao_frame *frame);
+/** What upscaling has listed, made ready to be traced. */
+nook_result ao_refine_gather(nook_ao *ao, const nook_ao_frame *frame);
+/** From what was traced of it to the picture. */
+nook_result ao_refine_finish(nook_ao *ao);
 /** Runs one of our own shaders, 16 x 8 pixels a group, with what is bound. */
 nook_result ao_dispatch_over(nook_ao *ao, const char *path, const char *defines, uint32_t width, uint32_t height);
 nook_texture ao_host_texture(nook_ao_texture texture);

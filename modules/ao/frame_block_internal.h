@@ -25,5 +25,6 @@ typedef struct frame_block {
     int32_t begin[2], end[2];  /**< Trace pixels that are wanted. */
     int32_t full_begin[2], full_end[2];
     float texel[2], full_texel[2]; /**< 1 / size, 1 / full_size. */
-    int32_t padding_end[2];        /**< A block's size is a multiple of 16 bytes. */
+    float refine_weight;
+    int32_t refine_reach; /**< A block's size is a multiple of 16 bytes. */
 } frame_block;

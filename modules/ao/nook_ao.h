@@ -241,6 +241,7 @@ typedef struct nook_ao_statistics {
     /** Visibilities that the trace or the filter computed as NaN, or further outside of [0, 1] than 1e-5, before they were clamped:
         0, or there is a mistake. Needs ao.count = 1, else 0. The reference does not clamp, and is not counted. */
     uint32_t outside;
+    uint32_t refined;      /**< Pixels that the last record has traced by themselves: ao.refine. */
     uint32_t occluders;    /**< Marched this frame. */
     uint64_t volume_bytes; /**< On the GPU, of the kind that was marched. */
     uint64_t

@@ -5,7 +5,7 @@
 nook_result ao_dispatch_over(nook_ao *ao, const char *path, const char *defines, uint32_t width, uint32_t height)
 {
     nook_program program;
-    char all[64];
+    char all[128];
     snprintf(all, sizeof all, "%s%s", defines, ao->counting ? "#define COUNTING\n" : "");
     nook_bind_uniform(ao->gpu, 0, ao->frame);
     nook_bind_storage(ao->gpu, AO_BINDING_COUNTER, ao->counter);
@@ -14,6 +14,8 @@ nook_result ao_dispatch_over(nook_ao *ao, const char *path, const char *defines,
         nook_dispatch(ao->gpu, program, nook_groups(width, 16), nook_groups(height, 8), 1);
     return result;
 }
+
+static const char HAS_NORMAL[] = "#define HAS_NORMAL\n";
 
 enum { HOST_TEXTURES = 2, UPSCALE_BILINEAR = 2, DOWNSAMPLE_MAJORITY = 1 };
 
@@ -111,11 +113,38 @@ static nook_result upscale(nook_ao *ao, int has_normal)
     static const char *const path = "shaders/ao/upscale.comp.glsl";
     const ao_region *region = &ao->recorded;
     const int32_t scale = 1 << ao->scale;
-    if (ao->shared.upscale != UPSCALE_BILINEAR)
-        return dispatch_full(ao, path, has_normal ? "#define HAS_NORMAL\n" : "");
-    return ao_dispatch_over(ao, path, has_normal ? "#define HAS_NORMAL\n#define BILINEAR\n" : "#define BILINEAR\n",
+    const int bilinear = ao->shared.upscale == UPSCALE_BILINEAR;
+    char defines[64];
+    snprintf(defines, sizeof defines, "%s%s%s", has_normal ? HAS_NORMAL : "", bilinear ? "#define BILINEAR\n" : "",
+             ao->refining ? "#define REFINE\n" : "");
+    if (!bilinear)
+        return dispatch_full(ao, path, defines);
+    return ao_dispatch_over(ao, path, defines,
                             count_blocks(region->full_begin[0], region->full_end[0], scale),
                             count_blocks(region->full_begin[1], region->full_end[1], scale));
+}
+
+/** Over what an earlier pass has listed. */
+static nook_result dispatch_listed(nook_ao *ao, const char *path, const char *defines, nook_buffer groups)
+{
+    nook_program program;
+    char all[128];
+    snprintf(all, sizeof all, "%s%s", defines, ao->counting ? "#define COUNTING\n" : "");
+    nook_bind_uniform(ao->gpu, 0, ao->frame);
+    nook_bind_storage(ao->gpu, AO_BINDING_COUNTER, ao->counter);
+    nook_result result = nook_program_compute(ao->gpu, path, all, &program);
+    if (result == NOOK_OK)
+        nook_dispatch_indirect(ao->gpu, program, groups);
+    return result;
+}
+
+/** Once more, from farther samples, what upscaling has listed. Bound is what that binds. */
+static nook_result refine_around(nook_ao *ao, int has_normal)
+{
+    char defines[64];
+    snprintf(defines, sizeof defines, "%s%s", has_normal ? HAS_NORMAL : "",
+             ao->refining == AO_REFINING_TRACED ? "#define TRACED\n" : "");
+    return dispatch_listed(ao, "shaders/ao/refine_around.comp.glsl", defines, ao->refine.candidates);
 }
 
 /** Where the picture has 4 or 16 times the pixels of the trace, most of the filter's work is done once for all of them. */
@@ -135,7 +164,11 @@ static nook_result filter_stepped(nook_ao *ao, const nook_ao_frame *frame)
     bind_host(ao, frame);
     nook_bind_texture(ao->gpu, 2, trace->filtered);
     nook_bind_image(ao->gpu, 0, ao->targets.visibility, GL_WRITE_ONLY);
+    if (ao->refining)
+        ao_refine_begin(ao->gpu, &ao->refine);
     result = upscale(ao, frame->normal.native != 0);
+    if (result == NOOK_OK && ao->refining)
+        result = refine_around(ao, frame->normal.native != 0);
     release_host(ao);
     return result;
 }
@@ -143,4 +176,25 @@ static nook_result filter_stepped(nook_ao *ao, const nook_ao_frame *frame)
 nook_result ao_filter(nook_ao *ao, const nook_ao_frame *frame)
 {
     return is_stepped(ao) ? filter_stepped(ao, frame) : filter_direct(ao);
+}
+
+nook_result ao_refine_gather(nook_ao *ao, const nook_ao_frame *frame)
+{
+    bind_host(ao, frame);
+    nook_bind_image(ao->gpu, 0, ao->targets.visibility, GL_WRITE_ONLY);
+    nook_result result = dispatch_listed(ao, "shaders/ao/refine_gather.comp.glsl",
+                                         frame->normal.native ? HAS_NORMAL : "", ao->refine.candidates);
+    release_host(ao);
+    return result;
+}
+
+nook_result ao_refine_finish(nook_ao *ao)
+{
+    ao_refine_bind(ao->gpu, &ao->refine); /* the technique may have bound others */
+    nook_bind_image(ao->gpu, 0, ao->targets.visibility, GL_READ_WRITE);
+    nook_bind_image(ao->gpu, 1, ao->refine.traced, GL_READ_ONLY);
+    nook_result result = dispatch_listed(ao, "shaders/ao/refine_filter.comp.glsl", "", ao->refine.listed);
+    if (result == NOOK_OK)
+        result = dispatch_listed(ao, "shaders/ao/refine_scatter.comp.glsl", "", ao->refine.listed);
+    return result;
 }

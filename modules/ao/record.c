@@ -105,6 +105,8 @@ static frame_block make_block(const nook_ao *ao, const nook_ao_frame *frame, int
         .filter_normal = shared->filter_normal,
         .has_normal = frame->normal.native != 0,
         .filter_kind = shared->filter,
+        .refine_weight = shared->refine_weight,
+        .refine_reach = shared->refine_reach,
         .origin = { region->origin[0], region->origin[1] },
         .begin = { region->begin[0], region->begin[1] },
         .end = { region->end[0], region->end[1] },
@@ -232,6 +234,7 @@ nook_result ao_begin(nook_ao *ao, const nook_ao_frame *frame, const ao_work *wor
     uint32_t instances = 0;
     ao->scale = work->scale;
     ao->counting = work->counting;
+    ao->refining = work->refining;
     ao->kinds = work->kinds;
     ao->recorded = ao_region_make(ao, &frame->part, 1u << work->scale, work->passes);
     nook_matrix view_from_world;
@@ -244,6 +247,8 @@ nook_result ao_begin(nook_ao *ao, const nook_ao_frame *frame, const ao_work *wor
     for (GLuint unit = 0; unit < AO_TEXTURE_UNITS; unit++)
         ao->gpu->gl->BindSampler(unit, 0); /* the host's would change how our textures are sampled */
     result = ao_targets_fit(ao->gpu, &ao->targets, ao->width, ao->height, ao->scale);
+    if (result == NOOK_OK && work->refining)
+        result = ao_refine_fit(ao->gpu, &ao->refine, ao->width, ao->height, (double)ao->shared.refine_share);
     if (result == NOOK_OK)
         result = upload_inputs(ao, frame, work->counting);
     if (result == NOOK_OK)
@@ -254,6 +259,12 @@ nook_result ao_begin(nook_ao *ao, const nook_ao_frame *frame, const ao_work *wor
     if (work->inputs & NOOK_AO_IN_MESHES)
         ao_depth_error(ao->gpu, frame->depth, frame->clip_from_view, out_pass->depth_error);
     return NOOK_OK;
+}
+
+/** What ao.refine says, as far as the technique can. */
+static int refining_of(const nook_ao *ao, const nook_ao_technique *technique)
+{
+    return ao->shared.refine == AO_REFINING_TRACED && !technique->refines ? AO_REFINING_AROUND : ao->shared.refine;
 }
 
 static ao_work work_of(const nook_ao *ao, const ao_slot *slot, const nook_ao_frame *frame)
@@ -269,6 +280,7 @@ static ao_work work_of(const nook_ao *ao, const ao_slot *slot, const nook_ao_fra
                       .kinds = ao_slot_kinds(slot),
                       .scale = scale,
                       .passes = direct ? 0 : 1 + stepped,
+                      .refining = stepped ? refining_of(ao, technique) : AO_REFINING_NOTHING,
                       .counting = technique->exact ? 0 : counting /* truth reads nothing of the kind */ };
 }
 
@@ -279,6 +291,20 @@ static nook_result trace(nook_ao *ao, const ao_slot *slot, nook_ao_pass *pass)
     pass->params = slot->buffer;
     bind_pass(pass);
     return slot->technique->record(slot->state, slot->params, pass);
+}
+
+/** Everything that the trace has bound is bound again: filter and upscaling came between. */
+static nook_result trace_listed(nook_ao *ao, const nook_ao_frame *frame, const ao_slot *slot, nook_ao_pass *pass)
+{
+    nook_result result = ao_refine_gather(ao, frame);
+    if (result != NOOK_OK)
+        return result;
+    pass->listed = &ao->refine.listed;
+    pass->visibility = ao->refine.traced;
+    pass->width = ao->refine.traced.width, pass->height = ao->refine.traced.height;
+    bind_pass(pass);
+    result = slot->technique->record(slot->state, slot->params, pass);
+    return result == NOOK_OK ? ao_refine_finish(ao) : result;
 }
 
 nook_result nook_ao_record(nook_ao *ao, const nook_ao_frame *frame)
@@ -296,6 +322,8 @@ nook_result nook_ao_record(nook_ao *ao, const nook_ao_frame *frame)
     result = trace(ao, slot, &pass);
     if (result == NOOK_OK && work.passes > 0)
         result = ao_filter(ao, frame);
+    if (result == NOOK_OK && work.refining == AO_REFINING_TRACED)
+        result = trace_listed(ao, frame, slot, &pass);
     if (nook_gpu_check(ao->gpu, "nook_ao_record") && result == NOOK_OK)
         result = NOOK_E_DEVICE; /* the check has logged what it was */
     return result;
@@ -326,7 +354,9 @@ void nook_ao_get_statistics(nook_ao *ao, nook_ao_statistics *out_statistics)
     out_statistics->volume_bytes = ao->kinds & NOOK_VOLUME_BIT(NOOK_VOLUME_SURFEL)
                                        ? brick_pool_bytes(&ao->pool)
                                        : volume_atlas_bytes(marched_atlas(ao));
-    out_statistics->texture_bytes = ao_targets_bytes(&ao->targets, ao->scale);
+    out_statistics->texture_bytes =
+        ao_targets_bytes(&ao->targets, ao->scale) + (ao->refining ? ao_refine_bytes(&ao->refine) : 0);
+    out_statistics->refined = ao->refining ? ao_refine_count(ao->gpu, &ao->refine) : 0;
     out_statistics->fetches_per_pixel = 0.0;
     out_statistics->outside = 0;
     if (!ao->shared.count)

@@ -5,7 +5,9 @@ enum { LOCATION_PART = 0 };
 
 const char *nook_ao_pass_defines(const nook_ao_pass *pass)
 {
-    return pass->counting ? "#define COUNTING\n" : "";
+    static const char *const defines[2][2] = { { "", "#define COUNTING\n" },
+                                               { "#define LISTED\n", "#define COUNTING\n#define LISTED\n" } };
+    return defines[pass->listed != NULL][pass->counting != 0];
 }
 
 void nook_ao_pass_groups(const nook_ao_pass *pass, uint32_t local_x, uint32_t local_y, uint32_t out_groups[2])
@@ -18,7 +20,10 @@ static void dispatch(const nook_ao_pass *pass, nook_program program, uint32_t lo
 {
     uint32_t groups[2];
     nook_ao_pass_groups(pass, local_x, local_y, groups);
-    nook_dispatch(pass->gpu, program, groups[0], groups[1], 1);
+    if (pass->listed)
+        nook_dispatch_indirect(pass->gpu, program, *pass->listed);
+    else
+        nook_dispatch(pass->gpu, program, groups[0], groups[1], 1);
 }
 
 nook_result nook_ao_pass_dispatch(const nook_ao_pass *pass, const char *shader_path, uint32_t local_x, uint32_t local_y)

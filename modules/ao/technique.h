@@ -57,6 +57,9 @@ typedef struct nook_ao_pass {
     nook_buffer counter; /**< Storage, texture fetches and values out of range. Binding 7: shaders/ao/counter.glsl. */
     int counting;        /**< Not 0: something is counted, see nook_ao_pass_defines. */
     uint32_t width, height; /**< Of depth, normal and visibility, pixels. */
+    /** NULL, or the trace is of a list of points: shaders/ao/refine.glsl, whose groups this buffer begins with. Depth and normals are those of the
+        trace before it; visibility, width and height are those of the list, a texel for each of them. */
+    const nook_buffer *listed;
     /** Only these pixels are wanted, begin[] to end[] - 1: all others must keep what visibility holds. */
     uint32_t begin[2], end[2];
     uint32_t origin[2]; /**< Pixel of invocation (0, 0) of a dispatch, see nook_ao_pass_groups: a multiple of 8. */
@@ -112,6 +115,8 @@ typedef struct nook_ao_technique {
     uint32_t exact; /**< 1: truth; always at full resolution, and not filtered, */
     uint32_t (*is_filtered)(
         const void *params); /**< unless this says so of an exact one with these parameters. May be NULL. */
+    uint32_t refines; /**< 1: record can trace a list (pass->listed), which all do that dispatch by the functions below and find their point by
+                          shaders/ao/point.glsl. */
     const nook_param *params;
     uint32_t param_count;
     uint32_t params_size;   /**< Bytes of the struct made from params.def. */
@@ -126,7 +131,7 @@ typedef struct nook_ao_technique {
 /** Lines that programs of a technique are compiled with: those that count, when the pass does. */
 const char *nook_ao_pass_defines(const nook_ao_pass *pass);
 
-/** Groups of a dispatch that starts at origin and covers the wanted pixels. @param local_x, local_y  local size, pixels */
+/** Groups of a dispatch over a trace's pixels that starts at origin and covers the wanted pixels. @param local_x, local_y  local size, pixels */
 void nook_ao_pass_groups(const nook_ao_pass *pass, uint32_t local_x, uint32_t local_y, uint32_t out_groups[2]);
 
 /**

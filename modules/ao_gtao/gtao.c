@@ -17,6 +17,7 @@ const nook_ao_technique nook_ao_gtao_technique = {
     .name = "gtao",
     .summary =
         "Slices through the line of sight, cosine-weighted arcs of the depth buffer; sees only what the camera sees",
+    .refines = 1,
     .params = param_table,
     .param_count = NOOK_COUNT(param_table),
     .params_size = sizeof(gtao_params),

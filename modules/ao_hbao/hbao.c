@@ -15,6 +15,7 @@ const nook_ao_technique nook_ao_hbao_technique = {
     .version = NOOK_AO_TECHNIQUE_VERSION,
     .name = "hbao",
     .summary = "Horizons of the depth buffer, solid angle without the cosine; sees only what the camera sees",
+    .refines = 1,
     .params = param_table,
     .param_count = NOOK_COUNT(param_table),
     .params_size = sizeof(hbao_params),

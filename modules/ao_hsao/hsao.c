@@ -16,6 +16,7 @@ const nook_ao_technique nook_ao_hsao_technique = {
     .version = NOOK_AO_TECHNIQUE_VERSION,
     .name = "hsao",
     .summary = "Horizons of the depth buffer below, rays above them; sees only what the camera sees",
+    .refines = 1,
     .params = param_table,
     .param_count = NOOK_COUNT(param_table),
     .params_size = sizeof(hsao_params),

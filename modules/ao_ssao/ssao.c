@@ -32,6 +32,7 @@ const nook_ao_technique nook_ao_ssao_technique = {
     .version = NOOK_AO_TECHNIQUE_VERSION,
     .name = "ssao",
     .summary = "Points around the fragment tested against the depth buffer; sees only what the camera sees",
+    .refines = 1,
     .params = param_table,
     .param_count = NOOK_COUNT(param_table),
     .params_size = sizeof(ssao_params),

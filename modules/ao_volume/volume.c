@@ -33,7 +33,7 @@ typedef struct volume_state {
     nook_buffer again; /**< Groups x, y, z of dispatches that do the work again: x is 0 until loops were ended. */
     volume_corners corners;
     volume_boxes boxes;
-    nook_texture kept; /**< Of the trace's size, R32F or, of surfels, RGBA32F; id 0 until a cut needs it. */
+    nook_texture kept[2]; /**< Of the trace's and of a list's size, R32F or, of surfels, RGBA32F; id 0 until a cut needs it. */
 } volume_state;
 
 static nook_result create(void *state, nook_gpu *gpu)
@@ -47,7 +47,8 @@ static void destroy(void *state, nook_gpu *gpu)
     volume_state *s = state;
     nook_direction_texture_release(&s->directions, gpu);
     nook_buffer_destroy(gpu, &s->again);
-    nook_texture_destroy(gpu, &s->kept);
+    nook_texture_destroy(gpu, &s->kept[0]);
+    nook_texture_destroy(gpu, &s->kept[1]);
     volume_corners_release(&s->corners, gpu);
     volume_boxes_release(&s->boxes, gpu);
 }
@@ -83,13 +84,14 @@ static void dispatch_parts(const nook_ao_pass *pass, const volume_work *work, co
 /** Fits and binds the image for what waits from one dispatch to the next. */
 static nook_result bind_kept(volume_state *s, const nook_ao_pass *pass, uint32_t format)
 {
-    if (s->kept.id == 0 || s->kept.format != format || s->kept.width != pass->width || s->kept.height != pass->height) {
-        nook_texture_destroy(pass->gpu, &s->kept);
-        nook_result result = nook_texture_create_2d(pass->gpu, format, pass->width, pass->height, GL_NEAREST, &s->kept);
+    nook_texture *kept = &s->kept[pass->listed != NULL];
+    if (kept->id == 0 || kept->format != format || kept->width != pass->width || kept->height != pass->height) {
+        nook_texture_destroy(pass->gpu, kept);
+        nook_result result = nook_texture_create_2d(pass->gpu, format, pass->width, pass->height, GL_NEAREST, kept);
         if (result != NOOK_OK)
             return result;
     }
-    nook_bind_image(pass->gpu, BINDING_KEPT, s->kept, GL_READ_WRITE);
+    nook_bind_image(pass->gpu, BINDING_KEPT, *kept, GL_READ_WRITE);
     return NOOK_OK;
 }
 
@@ -108,7 +110,7 @@ static nook_result trace(volume_state *s, const nook_ao_pass *pass, const volume
 {
     uint32_t all[2];
     nook_ao_pass_groups(pass, TILE_SIZE, TILE_SIZE, all);
-    const GLuint nothing[3] = { 0, all[1], 1 };
+    const GLuint nothing[3] = { 0, pass->listed ? 1 : all[1], 1 };
     volume_cut likely = volume_cut_likely(&task->usual), careful = volume_cut_careful(&task->most);
     likely.sure = likely.sure && task->usual.steps == task->most.steps;
     if (volume_cut_needs_image(&task->usual, &likely) || volume_cut_needs_image(&task->most, &careful)) {
@@ -122,7 +124,7 @@ static nook_result trace(volume_state *s, const nook_ao_pass *pass, const volume
     nook_bind_image(pass->gpu, BINDING_VISIBILITY, pass->visibility, GL_READ_WRITE);
     nook_program_use(pass->gpu, task->program);
     nook_uniform_int(pass->gpu, LOCATION_OCCLUDERS, &(const int32_t){ (int32_t)pass->occluder_count }, 1);
-    dispatch_parts(pass, &task->usual, &likely, task->program, NULL);
+    dispatch_parts(pass, &task->usual, &likely, task->program, pass->listed);
     if (!likely.sure)
         dispatch_parts(pass, &task->most, &careful, task->program, &s->again);
     return NOOK_OK;
@@ -131,9 +133,12 @@ static nook_result trace(volume_state *s, const nook_ao_pass *pass, const volume
 static void leave_open(const nook_ao_pass *pass)
 {
     const float open[4] = { 1.0f, 1.0f, 1.0f, 1.0f };
-    pass->gpu->gl->ClearTexSubImage(pass->visibility.id, 0, (GLint)pass->begin[0], (GLint)pass->begin[1], 0,
-                                    (GLsizei)(pass->end[0] - pass->begin[0]), (GLsizei)(pass->end[1] - pass->begin[1]),
-                                    1, GL_RGBA, GL_FLOAT, open);
+    if (pass->listed)
+        pass->gpu->gl->ClearTexImage(pass->visibility.id, 0, GL_RGBA, GL_FLOAT, open);
+    else
+        pass->gpu->gl->ClearTexSubImage(pass->visibility.id, 0, (GLint)pass->begin[0], (GLint)pass->begin[1], 0,
+                                        (GLsizei)(pass->end[0] - pass->begin[0]),
+                                        (GLsizei)(pass->end[1] - pass->begin[1]), 1, GL_RGBA, GL_FLOAT, open);
 }
 
 static uint32_t volume_kind(const void *params)
@@ -169,6 +174,12 @@ static nook_result draw(volume_state *s, const nook_ao_pass *pass, const volume_
     return volume_boxes_draw(&s->boxes, pass, task->program, &task->most, &cut);
 }
 
+/** Boxes cover pixels of the trace; points of a list are multiplied by the other path. */
+static int is_drawn(const volume_params *p, const nook_ao_pass *pass)
+{
+    return p->path == PATH_RASTER && !pass->listed;
+}
+
 /** The shader of these parameters, with what it reads of the volumes bound. */
 static nook_result choose_program(volume_state *s, const volume_params *p, const nook_ao_pass *pass,
                                   nook_program *out_program)
@@ -193,7 +204,7 @@ static nook_result choose_program(volume_state *s, const volume_params *p, const
     if (corners)
         nook_bind_texture(pass->gpu, BINDING_CORNERS, s->corners.texture);
     snprintf(defines, sizeof defines, "%s%s", corners ? "#define CORNERS\n" : "", nook_ao_pass_defines(pass));
-    if (p->path == PATH_RASTER)
+    if (is_drawn(p, pass))
         return nook_program_raster(pass->gpu, "shaders/ao/volume_box.vert.glsl", drawn[p->kind], defines, out_program);
     return nook_program_compute(pass->gpu, computed[p->kind], defines, out_program);
 }
@@ -212,7 +223,7 @@ static nook_result record(void *state, const void *params, const nook_ao_pass *p
         result = choose_program(s, p, pass, &task.program);
     if (result != NOOK_OK)
         return result;
-    return p->path == PATH_RASTER ? draw(s, pass, &task) : trace(s, pass, &task);
+    return is_drawn(p, pass) ? draw(s, pass, &task) : trace(s, pass, &task);
 }
 
 const nook_ao_technique nook_ao_volume_technique = {
@@ -221,6 +232,7 @@ const nook_ao_technique nook_ao_volume_technique = {
     .summary = "Rays marched through precomputed voxel volumes; sees what the camera does not",
     .inputs = NOOK_AO_IN_VOLUMES,
     .volume_kind = volume_kind,
+    .refines = 1,
     .params = param_table,
     .param_count = NOOK_COUNT(param_table),
     .params_size = sizeof(volume_params),

@@ -24,6 +24,8 @@ layout(std140, binding = 0) uniform Frame {
     ivec2 begin, end;            // trace pixels that are wanted: begin to end - 1
     ivec2 full_begin, full_end;  // full-resolution pixels that are wanted
     vec2 texel, full_texel;      // 1 / size, 1 / full_size
+    float refine_weight;         // samples that weigh less do not stand for a pixel: refine.glsl
+    int refine_reach;            // trace pixels
 } frame;
 
 #ifdef DRAWN // not computed: the fragment shader says which pixel it is

@@ -63,3 +63,14 @@ vec3 normal_at(ivec2 p, float depth)
         return normal;
     return rebuilt_normal(p, depth);
 }
+
+// The same for shaders with a program for each: define HAS_NORMAL, the host gives normals.
+vec3 guide_normal(ivec2 p, vec3 position)
+{
+#ifdef HAS_NORMAL
+    vec3 normal;
+    return given_normal(p, normal) ? normal : -normalize(position);
+#else
+    return rebuilt_normal(p, -position.z);
+#endif
+}

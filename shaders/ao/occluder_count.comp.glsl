@@ -11,8 +11,8 @@ void main()
     ivec2 pixel = invocation_pixel();
     float depth = is_wanted(pixel) ? texelFetch(depth_texture, pixel, 0).r : 0.0;
     uint count = 0u;
-    if (tile_begin(depth)) {
-        vec3 position = view_position(pixel, depth);
+    vec3 position = view_position(pixel, depth);
+    if (tile_begin(depth, position)) {
         for (int chunk = 0; chunk < occluder_count; chunk += CHUNK) {
             tile_list(chunk, occluder_count);
             for (uint i = 0u; depth > 0.0 && i < tile_count; i++) {

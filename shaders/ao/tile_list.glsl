@@ -10,8 +10,39 @@ shared uint tile_count;
 shared int tile_items[CHUNK];
 vec3 tile_box_min, tile_box_max; // view space, the same in every invocation
 
+#ifdef LISTED
+shared int tile_least[3], tile_most[3]; // of positions, as numbers that sort like them
+
+// Floats of either sign in the order of integers; its own inverse.
+int sortable(int bits)
+{
+    return bits >= 0 ? bits : bits ^ 0x7fffffff;
+}
+
+// Of points that may lie anywhere: the box around them.
+bool tile_begin(float depth, vec3 position)
+{
+    uint i = gl_LocalInvocationIndex;
+    if (i < 3u) {
+        tile_least[i] = 0x7fffffff;
+        tile_most[i] = -0x7fffffff;
+    }
+    barrier();
+    for (int axis = 0; depth > 0.0 && axis < 3; axis++) {
+        int number = sortable(floatBitsToInt(position[axis]));
+        atomicMin(tile_least[axis], number);
+        atomicMax(tile_most[axis], number);
+    }
+    barrier();
+    for (int axis = 0; axis < 3; axis++) {
+        tile_box_min[axis] = intBitsToFloat(sortable(tile_least[axis]));
+        tile_box_max[axis] = intBitsToFloat(sortable(tile_most[axis]));
+    }
+    return tile_least[0] <= tile_most[0];
+}
+#else
 // Call once, in uniform control flow; `depth` is 0 without geometry. @return false when no pixel of the tile has geometry
-bool tile_begin(float depth)
+bool tile_begin(float depth, vec3 position)
 {
     if (gl_LocalInvocationIndex == 0u) {
         tile_depth_min = 0x7f7fffffu;
@@ -30,6 +61,7 @@ bool tile_begin(float depth)
     tile_box_max = max(max(a * nearest, a * farthest), max(b * nearest, b * farthest));
     return farthest > 0.0;
 }
+#endif
 
 bool tile_reaches(Occluder o)
 {

@@ -2,91 +2,51 @@
 // bilinear weights times how much each lies on the pixel's surface; where none does, all around have a say. Defines: HAS_NORMAL,
 // the host gives normals; to rebuild them too, just in case, would cost a software driver as much as if all were rebuilt. BILINEAR,
 // only the four have a say, by weights without exponentials; an invocation then upscales the block of pixels between four trace pixels,
-// so that each of these is read once for all of them.
-#include "ao/guide.glsl"
+// so that each of these is read once for all of them. REFINE, what weighs too little is listed for refine.glsl.
+#include "ao/upscale.glsl"
 #include "ao/host.glsl"
+#include "ao/refine_list.glsl"
 layout(local_size_x = 16, local_size_y = 8) in;
 layout(binding = 2) uniform sampler2D filtered_trace; // xyz: normal times depth, 0 without geometry; w: visibility
 layout(binding = 0, r32f) uniform writeonly image2D visibility_out;
 
-struct Mean {
-    float reference, sum, weights;
-};
-
-void add(inout Mean mean, float visibility, float weight)
-{
-    mean.reference = mean.weights == 0.0 && weight > 0.0 ? visibility : mean.reference;
-    mean.sum += weight * (visibility - mean.reference);
-    mean.weights += weight;
-}
-
-// Position of a sample at trace pixel q, from its normal times its depth; also one over the depth.
-vec3 sample_position(ivec2 q, vec3 normal_depth, out float inverse)
-{
-    float square = dot(normal_depth, normal_depth);
-    inverse = inversesqrt(max(square, 1e-37));
-    return view_position(q, square * inverse);
-}
-
-vec3 guide_normal(ivec2 p, vec3 position)
-{
-#ifdef HAS_NORMAL
-    vec3 normal;
-    return given_normal(p, normal) ? normal : -normalize(position);
-#else
-    return rebuilt_normal(p, -position.z);
-#endif
-}
-
 #ifdef BILINEAR
-struct Corner {
-    vec3 normal_depth, position;
-    float inverse, visibility;
-};
-
-Corner read_corner(ivec2 q)
-{
-    vec4 texel = fetch_trace(filtered_trace, q);
-    Corner corner;
-    corner.normal_depth = texel.xyz;
-    corner.position = sample_position(q, texel.xyz, corner.inverse);
-    corner.visibility = texel.w;
-    return corner;
-}
-
 // The sums of both kinds of weight: those of filter.comp.glsl, nearly, and by the plane alone. Where no sample lies on the pixel's own
-// surface (the bottom of a joint that the trace has jumped over) the second is the answer; where none sees anything the pixel is open.
-float upscaled(Corner corners[4], vec2 part, Guide guide)
+// surface (the bottom of a joint that the trace has jumped over) the second is the answer, unless refine_around.comp.glsl gives one; where
+// none sees anything the pixel is open.
+// `weight`: how much of the four lies on the surface, 0 to 1.
+float upscaled(Corner corners[4], vec2 part, Guide guide, out float weight)
 {
     Mean strict = Mean(1.0, 0.0, 0.0), loose = Mean(1.0, 0.0, 0.0);
     for (int i = 0; i < 4; i++) {
         Corner corner = corners[i];
         vec2 near = mix(1.0 - part, part, vec2(i & 1, i >> 1));
-        float plane = plane_distance(guide, corner.position), square = plane * plane;
-        float facing = max(dot(guide.normal, corner.normal_depth) * corner.inverse, 0.0), slant = facing * facing;
-        float window = corner.normal_depth != vec3(0.0) && plane < 1e9 ? near.x * near.y + 1e-4 : 0.0;
-        slant *= slant;
-        slant *= slant; // to the 8th
-        float weight = slant / (1.0 + square * (1.0 + square * (0.5 + square)));
-        add(strict, corner.visibility, weight >= WEIGHT_MIN ? weight * window : 0.0);
-        add(loose, corner.visibility, window / (1.0 + square));
+        Fit fit = fit_of(guide, corner);
+        float window = fit.seen ? near.x * near.y + 1e-4 : 0.0, on_surface = fit.facing / fit.spread;
+        add(strict, corner.visibility, on_surface >= WEIGHT_MIN ? on_surface * window : 0.0);
+#ifndef REFINE
+        add(loose, corner.visibility, window / (1.0 + fit.square));
+#endif
     }
+    weight = strict.weights;
     if (!(strict.weights > 0.0))
         strict = loose;
     return strict.reference + (strict.weights > 0.0 ? strict.sum / strict.weights : 0.0);
 }
 
-void upscale_pixel(Corner corners[4], vec2 part, ivec2 p)
+// @return whether too little of the trace lies on its surface
+bool upscale_pixel(Corner corners[4], vec2 part, ivec2 p)
 {
-    float depth = distance_at(p), result = 1.0;
+    float depth = distance_at(p), result = 1.0, weights = 1e30;
     if (depth > 0.0) {
         vec3 position = full_ray(vec2(p)) * depth;
-        result = bounded(upscaled(corners, part, make_guide(position, guide_normal(p, position))));
+        result = bounded(upscaled(corners, part, make_guide(position, guide_normal(p, position)), weights));
     }
     imageStore(visibility_out, p, vec4(result));
 #ifdef COUNTING
     add_seen(depth);
 #endif
+    return weights < frame.refine_weight;
 }
 
 // The pixels whose trace_centre() lies between `base` and the trace pixel above and to the right of it; modules/ao/passes.c counts them.
@@ -99,11 +59,12 @@ void main()
         return;
     Corner corners[4];
     for (int i = 0; i < 4; i++)
-        corners[i] = read_corner(clamp(base + ivec2(i & 1, i >> 1), ivec2(0), frame.size - 1));
+        corners[i] = read_corner(filtered_trace, clamp(base + ivec2(i & 1, i >> 1), ivec2(0), frame.size - 1));
 #ifdef COUNTING
     ivec2 inside = min(first + side, frame.full_size) - max(first, ivec2(0)); // of the picture, also where only a part is wanted
     uint shared_units = fetches * FETCH_UNITS / uint(inside.x * inside.y);
 #endif
+    uint unmet = 0u;
     for (int y = 0; y < side; y++) {
         for (int x = 0; x < side; x++) {
             ivec2 p = first + ivec2(x, y);
@@ -112,36 +73,23 @@ void main()
 #ifdef COUNTING
             uint before = fetches;
 #endif
-            upscale_pixel(corners, vec2(x, y) / float(side), p);
+            if (upscale_pixel(corners, vec2(x, y) / float(side), p))
+                unmet |= 1u << (y * side + x);
 #ifdef COUNTING
             if ((frame.counting & COUNT_PIXELS) != 0)
                 add_to_pixels(p, 1, shared_units + (fetches - before) * FETCH_UNITS);
 #endif
         }
     }
+#ifdef REFINE
+    list_block(first, side, unmet);
+#endif
 #ifdef COUNTING
     if ((frame.counting & COUNT_SUMS) != 0)
         add_to_sums();
 #endif
 }
 #else
-// filter.comp.glsl's weight in one exponential. 0 where there is no geometry; always a number.
-float weight_on_surface(Guide guide, ivec2 q, vec3 normal_depth)
-{
-    const float LOG2_E = 1.44269504;
-    float inverse, plane = plane_distance(guide, sample_position(q, normal_depth, inverse));
-    float facing = max(dot(guide.normal, normal_depth) * inverse, 1e-6);
-    float weight = exp2(log2(facing) * frame.filter_normal - plane * plane * LOG2_E);
-    return normal_depth != vec3(0.0) && weight >= WEIGHT_MIN ? weight : 0.0;
-}
-
-// When no sample lies on the pixel's own surface (the bottom of a joint that the trace has jumped over): by the plane alone.
-float weight_around(Guide guide, ivec2 q, vec3 normal_depth)
-{
-    float inverse, plane = plane_distance(guide, sample_position(q, normal_depth, inverse));
-    return normal_depth != vec3(0.0) && plane < 1e15 ? 1.0 / (1.0 + plane * plane) : 0.0;
-}
-
 // The four around a point, bilinear. A lone one on the surface counts also where it is the farthest.
 void add_corners(inout Mean mean, Guide guide, vec2 centre)
 {
@@ -160,7 +108,11 @@ void add_corners(inout Mean mean, Guide guide, vec2 centre)
 void add_around(inout Mean mean, Guide guide, vec2 centre)
 {
     ivec2 base = ivec2(round(centre)) - 2;
+#ifdef REFINE
+    int wanted = 0; // refine_around.comp.glsl does that
+#else
     int wanted = mean.weights > 0.0 ? 0 : 25;
+#endif
     for (int i = 0; i < wanted; i++) {
         ivec2 q = base + ivec2(i % 5, i / 5), inside = clamp(q, ivec2(0), frame.size - 1);
         vec2 covered = clamp(2.5 - abs(vec2(q) - centre), 0.0, 1.0);
@@ -170,10 +122,11 @@ void add_around(inout Mean mean, Guide guide, vec2 centre)
     }
 }
 
-float upscaled(vec2 centre, Guide guide)
+float upscaled(vec2 centre, Guide guide, out float weights)
 {
     Mean mean = Mean(1.0, 0.0, 0.0);
     add_corners(mean, guide, centre);
+    weights = mean.weights;
     add_around(mean, guide, centre);
     return mean.reference + (mean.weights > 0.0 ? mean.sum / mean.weights : 0.0);
 }
@@ -183,14 +136,18 @@ void main()
     ivec2 p = frame.full_begin + ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(p, frame.full_end)))
         return;
-    float depth = distance_at(p), result = 1.0;
+    float depth = distance_at(p), result = 1.0, weights = 1e30;
     if (depth > 0.0) {
         vec3 position = full_ray(vec2(p)) * depth;
-        result = bounded(upscaled(trace_centre(p), make_guide(position, guide_normal(p, position))));
+        result = bounded(upscaled(trace_centre(p), make_guide(position, guide_normal(p, position)), weights));
     }
     imageStore(visibility_out, p, vec4(result));
 #ifdef COUNTING
     add_seen(depth);
+#endif
+#ifdef REFINE
+    if (weights < frame.refine_weight)
+        list_block(p, 1, 1u);
 #endif
     add_counts_of(p, 1);
 }

@@ -13,6 +13,7 @@ ivec2 invocation_pixel()
 void main()
 {
     ivec2 pixel = invocation_pixel();
+    place = pixel;
     float depth = fetch_trace(depth_texture, pixel).r;
     factor = 1.0;
     Occluder o = occluder_at(occluder);

@@ -28,7 +28,7 @@ float visibility_past(Occluder o, Bundle b)
     Receiver r = receive(o, b.position, b.normal);
     if (!r.can_see)
         return 1.0;
-    float sum = part.x == 0 ? 0.0 : imageLoad(kept_image, b.pixel).r;
+    float sum = part.x == 0 ? 0.0 : imageLoad(kept_image, place).r;
     for (int j = part.x; j < part.y; j++) {
         vec3 d = direction(j, params.rays, b.block, b.tangent, b.bitangent, b.normal);
         float jitter = fract(b.shift + float(j) * 0.61803399);
@@ -36,6 +36,6 @@ float visibility_past(Occluder o, Bundle b)
     }
     if (part.y == params.rays)
         return 1.0 - sum / float(params.rays);
-    imageStore(kept_image, b.pixel, vec4(sum));
+    imageStore(kept_image, place, vec4(sum));
     return 1.0;
 }

@@ -27,7 +27,7 @@ float sum_union(float sum, bool inside, vec3 position, vec3 normal, ivec2 pixel)
     int block = block_of(pixel);
     Passage start = free_passage();
     if (part.z > 0) {
-        vec4 kept = imageLoad(kept_image, pixel);
+        vec4 kept = imageLoad(kept_image, place);
         start.occlusion = kept.x, start.transmittance = kept.y, start.end = kept.z;
     }
     for (int first = part.x; first < part.y; first += BATCH) {
@@ -54,7 +54,7 @@ float sum_union(float sum, bool inside, vec3 position, vec3 normal, ivec2 pixel)
             }
         }
         if (part.w < occluder_count)
-            imageStore(kept_image, pixel, vec4(met[0].occlusion, met[0].transmittance, met[0].end, 0.0));
+            imageStore(kept_image, place, vec4(met[0].occlusion, met[0].transmittance, met[0].end, 0.0));
         for (int j = 0; j < BATCH; j++)
             sum += j < batch && part.w == occluder_count ? met[j].occlusion : 0.0;
     }

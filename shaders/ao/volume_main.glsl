@@ -5,6 +5,7 @@
 #include "ao/tile_list.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 0, r32f) uniform image2D visibility_image;
+#include "ao/point.glsl"
 // Groups of the dispatches that do everything again, carefully: x stays 0 unless loops were ended.
 layout(std430, binding = 5) buffer Again {
     uint groups_x, groups_y, groups_z;
@@ -35,19 +36,19 @@ bool loops_were_ended()
 
 void main()
 {
-    ivec2 pixel = invocation_pixel();
-    bool on_image = is_wanted(pixel), multiply = params.combine == COMBINE_MULTIPLY;
-    float depth = on_image ? fetch_trace(depth_texture, pixel).r : 0.0;
+    Point point = point_of_invocation();
+    bool on_image = point.wanted, multiply = params.combine == COMBINE_MULTIPLY || params.path != PATH_COMPUTE; // a list is traced here in any case
+    float depth = point.depth;
+    place = point.place;
     // Between parts the image holds the product so far, or the sum of rho so far.
     bool is_first = part.x == 0 && part.z == 0, is_last = part.y == params.rays && part.w == occluder_count;
-    float result = is_first || !on_image ? (multiply ? 1.0 : 0.0) : imageLoad(visibility_image, pixel).r;
-    if (tile_begin(depth)) {
-        vec3 position = view_position(pixel, depth);
-        vec3 normal = on_image ? nook_octahedral_decode(fetch_trace(normal_texture, pixel).xy) : vec3(0.0, 0.0, 1.0);
+    float result = is_first || !on_image ? (multiply ? 1.0 : 0.0) : imageLoad(visibility_image, place).r;
+    if (tile_begin(depth, point.position)) {
+        vec3 normal = normal_of(point);
         if (multiply)
-            result = multiply_visibilities(result, depth > 0.0, position, normal, pixel);
+            result = multiply_visibilities(result, depth > 0.0, point.position, normal, point.pixel);
         else
-            result = sum_union(result, depth > 0.0, position, normal, pixel);
+            result = sum_union(result, depth > 0.0, point.position, normal, point.pixel);
         if (loops_were_ended())
             again.groups_x = gl_NumWorkGroups.x;
     }
@@ -56,6 +57,6 @@ void main()
     if (is_last)
         result = depth > 0.0 ? bounded(result) : 1.0;
     if (on_image)
-        imageStore(visibility_image, pixel, vec4(result));
-    add_counts();
+        imageStore(visibility_image, place, vec4(result));
+    add_counts_of(point);
 }

@@ -13,7 +13,7 @@ float sum_union(float sum, bool inside, vec3 position, vec3 normal, ivec2 pixel)
     vec3 tangent, bitangent;
     tangent_frame(normal, tangent, bitangent);
     int block = block_of(pixel);
-    float shift = noise(pixel, 1u), start = part.z > 0 ? imageLoad(kept_image, pixel).r : frame.r_max;
+    float shift = noise(pixel, 1u), start = part.z > 0 ? imageLoad(kept_image, place).r : frame.r_max;
     for (int first = part.x; first < part.y; first += BATCH) {
         int batch = min(BATCH, part.y - first);
         Batch nearest = Batch(vec4(start), vec4(start));
@@ -35,7 +35,7 @@ float sum_union(float sum, bool inside, vec3 position, vec3 normal, ivec2 pixel)
             }
         }
         if (part.w < occluder_count)
-            imageStore(kept_image, pixel, vec4(nearest.low.x));
+            imageStore(kept_image, place, vec4(nearest.low.x));
         for (int j = 0; j < batch; j++)
             sum += part.w == occluder_count ? falloff(batch_get(nearest, j)) : 0.0;
     }

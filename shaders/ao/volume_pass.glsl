@@ -22,7 +22,10 @@ layout(binding = 1) uniform sampler2D normal_texture;
 layout(location = 0) uniform ivec4 part;
 layout(location = 1) uniform int occluder_count; // of all parts
 
+ivec2 place; // of this invocation's point in the images that are written
+
 const int COMBINE_MULTIPLY = 0;
+const int PATH_COMPUTE = 0;
 const int BATCH = 8; // rays whose hits are held in registers
 
 // A number for each ray of a batch. Not an array: that a loop indexes would lie in memory, and a software driver writes there lane by

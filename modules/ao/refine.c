@@ -1,0 +1,89 @@
+/* Pixels that no pixel of the trace stands for, traced by themselves: docs/techniques.md "Refinement". */
+#include "modules/ao/refine_internal.h"
+#include <math.h>
+
+enum {
+    GROUP = 64, /* REFINE_GROUP of shaders/ao/refine.glsl */
+    BINDING_CANDIDATES = 6,
+    BINDING_LISTED = 4,
+    PIXEL_BYTES = 4,
+    RECORD_BYTES = 16
+};
+
+/** Heads of the buffers: those of shaders/ao/refine.glsl. */
+typedef struct candidates_head {
+    uint32_t groups[3], count, weak, room, padding[2];
+} candidates_head;
+
+typedef struct listed_head {
+    uint32_t groups[3], count, capacity, padding[3];
+} listed_head;
+
+void ao_refine_release(nook_gpu *gpu, ao_refine *refine)
+{
+    nook_buffer_destroy(gpu, &refine->candidates);
+    nook_buffer_destroy(gpu, &refine->listed);
+    nook_texture_destroy(gpu, &refine->traced);
+    *refine = (ao_refine){ 0 };
+}
+
+static uint32_t rows_of(uint32_t capacity)
+{
+    return nook_groups(capacity, GROUP);
+}
+
+/** Room for a share of the pixels, whole groups of it. */
+static uint32_t capacity_of(uint32_t pixels, double share)
+{
+    uint32_t wanted = (uint32_t)ceil((double)pixels * share);
+    return rows_of(wanted) * GROUP;
+}
+
+nook_result ao_refine_fit(nook_gpu *gpu, ao_refine *refine, uint32_t width, uint32_t height, double share)
+{
+    uint32_t pixels = width * height, capacity = capacity_of(pixels, share);
+    if (refine->pixels == pixels && refine->capacity == capacity)
+        return NOOK_OK;
+    ao_refine_release(gpu, refine);
+    nook_result result =
+        nook_buffer_create(gpu, NULL, sizeof(candidates_head) + (size_t)pixels * 2 * PIXEL_BYTES, &refine->candidates);
+    if (result == NOOK_OK)
+        result =
+            nook_buffer_create(gpu, NULL, sizeof(listed_head) + (size_t)capacity * RECORD_BYTES, &refine->listed);
+    if (result == NOOK_OK)
+        result = nook_texture_create_2d(gpu, GL_R32F, GROUP, rows_of(capacity), GL_NEAREST, &refine->traced);
+    if (result == NOOK_OK)
+        refine->pixels = pixels, refine->capacity = capacity;
+    else
+        ao_refine_release(gpu, refine);
+    return result;
+}
+
+uint64_t ao_refine_bytes(const ao_refine *refine)
+{
+    return (uint64_t)refine->candidates.size + refine->listed.size + (uint64_t)refine->capacity * sizeof(float);
+}
+
+void ao_refine_begin(nook_gpu *gpu, const ao_refine *refine)
+{
+    const candidates_head candidates = { .groups = { 0, 1, 1 }, .room = refine->pixels };
+    const listed_head listed = { .groups = { 0, 1, 1 }, .capacity = refine->capacity };
+    nook_buffer_update(gpu, refine->candidates, 0, &candidates, sizeof candidates);
+    nook_buffer_update(gpu, refine->listed, 0, &listed, sizeof listed);
+    ao_refine_bind(gpu, refine);
+}
+
+void ao_refine_bind(nook_gpu *gpu, const ao_refine *refine)
+{
+    nook_bind_storage(gpu, BINDING_CANDIDATES, refine->candidates);
+    nook_bind_storage(gpu, BINDING_LISTED, refine->listed);
+}
+
+uint32_t ao_refine_count(nook_gpu *gpu, const ao_refine *refine)
+{
+    listed_head head;
+    if (refine->capacity == 0)
+        return 0;
+    nook_buffer_read(gpu, refine->listed, 0, &head, sizeof head);
+    return head.count < refine->capacity ? head.count : refine->capacity;
+}

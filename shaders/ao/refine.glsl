@@ -1,0 +1,42 @@
+#pragma once
+// Pixels of the picture that no pixel of the trace stands for: docs/techniques.md "Refinement". Upscaling lists them as candidates, which
+// refine_around.comp.glsl takes from samples farther away. With ao.refine = traced, those of which nothing is found there either are weak,
+// and refine_gather.comp.glsl lists as many of them as there is room for, to be traced. Heads of modules/ao/refine.c.
+#include "ao/frame.glsl"
+
+const uint REFINE_GROUP = 64u; // invocations of a group, and texels of a row of what is traced
+
+layout(std430, binding = 6) buffer Candidates {
+    uint groups_x, groups_y, groups_z; // of a dispatch over them
+    uint count, weak;
+    uint room, padding0, padding1;
+    uint pixels[]; // x + 65536 y: room for all of the picture, and again for the weak ones
+} candidates;
+
+layout(std430, binding = 4) buffer Listed {
+    uint groups_x, groups_y, groups_z;
+    uint count; // may be more than the capacity
+    uint capacity, padding0, padding1, padding2;
+    uvec4 records[]; // pixel, distance, normal, and what came of it
+} listed;
+
+uint pack_pixel(ivec2 p)
+{
+    return uint(p.x) | uint(p.y) << 16;
+}
+
+ivec2 unpack_pixel(uint bits)
+{
+    return ivec2(bits & 65535u, bits >> 16);
+}
+
+// The texel of the refined trace that record i is traced into.
+ivec2 listed_place(uint i)
+{
+    return ivec2(i % REFINE_GROUP, i / REFINE_GROUP);
+}
+
+uint listed_count()
+{
+    return min(listed.count, listed.capacity);
+}

@@ -1,0 +1,34 @@
+// From the weak candidates to the list of pixels that are traced by themselves: all, or where there are too many of them some of each
+// place. Defines: HAS_NORMAL. A listed pixel's visibility is -1 - its record until refine_scatter.comp.glsl has written it.
+#include "ao/host.glsl"
+#include "ao/refine.glsl"
+layout(local_size_x = 64) in;
+layout(binding = 0, r32f) uniform writeonly image2D visibility_out;
+
+// By a hash of the pixel, so that the order of the list does not decide. Four standard deviations of their number are kept free: were there
+// too many of them, the order would.
+bool is_chosen(ivec2 p)
+{
+    float room = float(listed.capacity), share = (room - 4.0 * sqrt(room)) / float(candidates.weak);
+    return candidates.weak <= listed.capacity || float(hash(pack_pixel(p)) >> 8) * (1.0 / 16777216.0) < share;
+}
+
+void main()
+{
+    uint i = gl_GlobalInvocationID.x;
+    if (i >= candidates.weak)
+        return;
+    ivec2 p = unpack_pixel(candidates.pixels[candidates.room + i]);
+    if (!is_chosen(p))
+        return;
+    uint record = atomicAdd(listed.count, 1u);
+    if (record >= listed.capacity)
+        return;
+    atomicMax(listed.groups_x, record / REFINE_GROUP + 1u);
+    float depth = distance_at(p);
+    vec3 normal = guide_normal(p, full_ray(vec2(p)) * depth);
+    listed.records[record] =
+        uvec4(pack_pixel(p), floatBitsToUint(depth), packUnorm2x16(nook_octahedral_encode(normal)), 0u);
+    imageStore(visibility_out, p, vec4(-1.0 - float(record)));
+    add_counts_of(p, 1);
+}
