@@ -15,12 +15,17 @@ typedef struct slab {
     size_t count, capacity;
 } slab;
 
+/* What a worker sums up of the part that it is at. */
+typedef struct worker_bins {
+    nook_surfel_bins *bins;
+} worker_bins;
+
 typedef struct bake {
     nook_surfel_source source;
     uint8_t (*reach)[2]; /* first and last slab of each triangle; a first above the last: it has none */
     nook_brick *bricks;
     slab *slabs;
-    nook_surfel_bins **bins;          /* of each worker, for what it is at */
+    worker_bins *workers;
     const nook_surfel_before *before; /* NULL: all is made */
     atomic_bool out_of_memory;
 } bake;
@@ -154,7 +159,7 @@ static void bake_slabs(void *user, size_t first, size_t last, unsigned worker)
     bake *b = user;
     nook_result result = NOOK_OK;
     for (size_t s = first; s < last && result == NOOK_OK; s++)
-        result = bake_slab(b, s, b->bins[worker]);
+        result = bake_slab(b, s, b->workers[worker].bins);
     if (result != NOOK_OK)
         atomic_store(&b->out_of_memory, true);
 }
@@ -175,22 +180,22 @@ static bool allocate(bake *b, unsigned workers, uint32_t bins)
     b->reach = malloc(triangles * sizeof *b->reach);
     b->bricks = calloc((size_t)b->source.counts[0] * b->source.counts[1] * b->source.counts[2], sizeof *b->bricks);
     b->slabs = calloc(b->source.counts[2], sizeof *b->slabs);
-    b->bins = calloc(workers, sizeof *b->bins);
-    bool made = b->reach && b->bricks && b->slabs && b->bins;
+    b->workers = calloc(workers, sizeof *b->workers);
+    bool made = b->reach && b->bricks && b->slabs && b->workers;
     for (unsigned i = 0; made && i < workers; i++) {
-        b->bins[i] = nook_surfel_bins_create(bins);
-        made = b->bins[i] != NULL;
+        b->workers[i].bins = nook_surfel_bins_create(bins);
+        made = b->workers[i].bins != NULL;
     }
     return made;
 }
 
 static void release(bake *b, unsigned workers)
 {
-    for (unsigned i = 0; b->bins && i < workers; i++)
-        nook_surfel_bins_destroy(b->bins[i]);
+    for (unsigned i = 0; b->workers && i < workers; i++)
+        nook_surfel_bins_destroy(b->workers[i].bins);
     for (uint32_t s = 0; b->slabs && s < b->source.counts[2]; s++)
         free(b->slabs[s].surfels);
-    free(b->bins);
+    free(b->workers);
     free(b->slabs);
     free(b->reach);
     free(b->bricks);
