@@ -119,8 +119,7 @@ static nook_result upscale(nook_ao *ao, int has_normal)
              ao->refining ? "#define REFINE\n" : "");
     if (!bilinear)
         return dispatch_full(ao, path, defines);
-    return ao_dispatch_over(ao, path, defines,
-                            count_blocks(region->full_begin[0], region->full_end[0], scale),
+    return ao_dispatch_over(ao, path, defines, count_blocks(region->full_begin[0], region->full_end[0], scale),
                             count_blocks(region->full_begin[1], region->full_end[1], scale));
 }
 

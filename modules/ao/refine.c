@@ -48,8 +48,7 @@ nook_result ao_refine_fit(nook_gpu *gpu, ao_refine *refine, uint32_t width, uint
     nook_result result =
         nook_buffer_create(gpu, NULL, sizeof(candidates_head) + (size_t)pixels * 2 * PIXEL_BYTES, &refine->candidates);
     if (result == NOOK_OK)
-        result =
-            nook_buffer_create(gpu, NULL, sizeof(listed_head) + (size_t)capacity * RECORD_BYTES, &refine->listed);
+        result = nook_buffer_create(gpu, NULL, sizeof(listed_head) + (size_t)capacity * RECORD_BYTES, &refine->listed);
     if (result == NOOK_OK)
         result = nook_texture_create_2d(gpu, GL_R32F, GROUP, rows_of(capacity), GL_NEAREST, &refine->traced);
     if (result == NOOK_OK)

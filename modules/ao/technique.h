@@ -14,7 +14,7 @@
 extern "C" {
 #endif
 
-#define NOOK_AO_TECHNIQUE_VERSION 8
+#define NOOK_AO_TECHNIQUE_VERSION 9
 
 /** A box of voxels. */
 typedef struct nook_ao_box {
@@ -115,7 +115,8 @@ typedef struct nook_ao_technique {
     uint32_t exact; /**< 1: truth; always at full resolution, and not filtered, */
     uint32_t (*is_filtered)(
         const void *params); /**< unless this says so of an exact one with these parameters. May be NULL. */
-    uint32_t refines; /**< 1: record can trace a list (pass->listed), which all do that dispatch by the functions below and find their point by
+    uint32_t
+        refines; /**< 1: record can trace a list (pass->listed), which all do that dispatch by the functions below and find their point by
                           shaders/ao/point.glsl. */
     const nook_param *params;
     uint32_t param_count;

@@ -33,7 +33,8 @@ typedef struct volume_state {
     nook_buffer again; /**< Groups x, y, z of dispatches that do the work again: x is 0 until loops were ended. */
     volume_corners corners;
     volume_boxes boxes;
-    nook_texture kept[2]; /**< Of the trace's and of a list's size, R32F or, of surfels, RGBA32F; id 0 until a cut needs it. */
+    nook_texture
+        kept[2]; /**< Of the trace's and of a list's size, R32F or, of surfels, RGBA32F; id 0 until a cut needs it. */
 } volume_state;
 
 static nook_result create(void *state, nook_gpu *gpu)

@@ -20,7 +20,8 @@ float found_around(ivec2 p, Guide guide, out float own)
     ivec2 base = ivec2(floor(centre)) + 1;
     own = 0.0;
     for (int y = -reach; y < reach; y++) {
-        for (int x = -reach; x < reach; x++) {
+        int inset = reach > 1 && (y == -reach || y == reach - 1) ? 1 : 0; // the four at the corners weigh next to nothing
+        for (int x = inset - reach; x < reach - inset; x++) {
             ivec2 q = base + ivec2(x, y), inside = clamp(q, ivec2(0), frame.size - 1);
             vec2 near = max(1.0 - abs(vec2(q) - centre) * part, 0.0);
             Corner found = read_corner(filtered_trace, inside);
