@@ -12,7 +12,7 @@ enum {
 
 /** Heads of the buffers: those of shaders/ao/refine.glsl. */
 typedef struct candidates_head {
-    uint32_t groups[3], count, weak, room, padding[2];
+    uint32_t groups[3], count;
 } candidates_head;
 
 typedef struct listed_head {
@@ -46,7 +46,7 @@ nook_result ao_refine_fit(nook_gpu *gpu, ao_refine *refine, uint32_t width, uint
         return NOOK_OK;
     ao_refine_release(gpu, refine);
     nook_result result =
-        nook_buffer_create(gpu, NULL, sizeof(candidates_head) + (size_t)pixels * 2 * PIXEL_BYTES, &refine->candidates);
+        nook_buffer_create(gpu, NULL, sizeof(candidates_head) + (size_t)pixels * PIXEL_BYTES, &refine->candidates);
     if (result == NOOK_OK)
         result = nook_buffer_create(gpu, NULL, sizeof(listed_head) + (size_t)capacity * RECORD_BYTES, &refine->listed);
     if (result == NOOK_OK)
@@ -65,7 +65,7 @@ uint64_t ao_refine_bytes(const ao_refine *refine)
 
 void ao_refine_begin(nook_gpu *gpu, const ao_refine *refine)
 {
-    const candidates_head candidates = { .groups = { 0, 1, 1 }, .room = refine->pixels };
+    const candidates_head candidates = { .groups = { 0, 1, 1 } };
     const listed_head listed = { .groups = { 0, 1, 1 }, .capacity = refine->capacity };
     nook_buffer_update(gpu, refine->candidates, 0, &candidates, sizeof candidates);
     nook_buffer_update(gpu, refine->listed, 0, &listed, sizeof listed);

@@ -1,16 +1,15 @@
 #pragma once
 // Pixels of the picture that no pixel of the trace stands for: docs/techniques.md "Refinement". Upscaling lists them as candidates, which
-// refine_around.comp.glsl takes from samples farther away. With ao.refine = traced, those of which nothing is found there either are weak,
-// and refine_gather.comp.glsl lists as many of them as there is room for, to be traced. Heads of modules/ao/refine.c.
+// refine_around.comp.glsl takes from samples farther away. With ao.refine = traced, refine_gather.comp.glsl lists as many of them as there
+// is room for, to be traced. Heads of modules/ao/refine.c.
 #include "ao/frame.glsl"
 
 const uint REFINE_GROUP = 64u; // invocations of a group, and texels of a row of what is traced
 
 layout(std430, binding = 6) buffer Candidates {
     uint groups_x, groups_y, groups_z; // of a dispatch over them
-    uint count, weak;
-    uint room, padding0, padding1;
-    uint pixels[]; // x + 65536 y: room for all of the picture, and again for the weak ones
+    uint count;
+    uint pixels[]; // x + 65536 y: room for all of the picture
 } candidates;
 
 layout(std430, binding = 4) buffer Listed {

@@ -1,6 +1,6 @@
 // Pixels that the four samples around hardly stand for, from more of them: a strip of a surface that is thinner than a pixel of the trace is
 // met by some of them, if not by those next to it. Near ones count most; what lies on other surfaces decides where there is nothing else.
-// Defines: HAS_NORMAL; TRACED, of what has nothing else there is a list.
+// Defines: HAS_NORMAL; TRACED, they are traced afterwards, as many as there is room for.
 #include "ao/upscale.glsl"
 #include "ao/host.glsl"
 #include "ao/refine.glsl"
@@ -10,15 +10,23 @@ layout(binding = 0, r32f) uniform writeonly image2D visibility_out;
 
 const float OTHERS = 1e-3; // what samples on other surfaces weigh, against those on the pixel's own
 
-// @param own  weight of the samples on the pixel's own surface: 1 is one right here
-float found_around(ivec2 p, Guide guide, out float own)
+// Trace pixels; modules/ao/region.c leaves 4 around what is wanted. 0 where all are traced, and nobody will see what was found.
+int reach_wanted()
+{
+#ifdef TRACED
+    if (candidates.count <= listed.capacity)
+        return 0;
+#endif
+    return frame.refine_reach;
+}
+
+float found_around(ivec2 p, Guide guide)
 {
     Mean mean = Mean(1.0, 0.0, 0.0);
-    int reach = frame.refine_reach; // modules/ao/region.c leaves 4 around what is wanted
-    float part = 1.0 / float(reach);
+    int reach = reach_wanted();
+    float part = 1.0 / float(max(reach, 1));
     vec2 centre = trace_centre(p);
     ivec2 base = ivec2(floor(centre)) + 1;
-    own = 0.0;
     for (int y = -reach; y < reach; y++) {
         int inset = reach > 1 && (y == -reach || y == reach - 1) ? 1 : 0; // the four at the corners weigh next to nothing
         for (int x = inset - reach; x < reach - inset; x++) {
@@ -29,7 +37,6 @@ float found_around(ivec2 p, Guide guide, out float own)
             near = q == inside && fit.seen ? near * near : vec2(0.0);
             float share = near.x * near.y / min(fit.spread, 1e30);
             add(mean, found.visibility, share * (fit.facing + OTHERS));
-            own += share * fit.facing;
         }
     }
     return mean.reference + (mean.weights > 0.0 ? mean.sum / mean.weights : 0.0);
@@ -42,11 +49,7 @@ void main()
         return;
     ivec2 p = unpack_pixel(candidates.pixels[i]);
     vec3 position = full_ray(vec2(p)) * distance_at(p);
-    float own, found = bounded(found_around(p, make_guide(position, guide_normal(p, position)), own));
+    float found = bounded(found_around(p, make_guide(position, guide_normal(p, position))));
     imageStore(visibility_out, p, vec4(found));
-#ifdef TRACED
-    if (own < frame.refine_weight)
-        candidates.pixels[candidates.room + atomicAdd(candidates.weak, 1u)] = candidates.pixels[i];
-#endif
     add_counts_of(p, 1);
 }

@@ -1,4 +1,4 @@
-// From the weak candidates to the list of pixels that are traced by themselves: all, or where there are too many of them some of each
+// From the candidates to the list of pixels that are traced by themselves: all, or where there are too many of them some of each
 // place. Defines: HAS_NORMAL. A listed pixel's visibility is -1 - its record until refine_scatter.comp.glsl has written it.
 #include "ao/host.glsl"
 #include "ao/refine.glsl"
@@ -9,16 +9,16 @@ layout(binding = 0, r32f) uniform writeonly image2D visibility_out;
 // too many of them, the order would.
 bool is_chosen(ivec2 p)
 {
-    float room = float(listed.capacity), share = (room - 4.0 * sqrt(room)) / float(candidates.weak);
-    return candidates.weak <= listed.capacity || float(hash(pack_pixel(p)) >> 8) * (1.0 / 16777216.0) < share;
+    float room = float(listed.capacity), share = (room - 4.0 * sqrt(room)) / float(candidates.count);
+    return candidates.count <= listed.capacity || float(hash(pack_pixel(p)) >> 8) * (1.0 / 16777216.0) < share;
 }
 
 void main()
 {
     uint i = gl_GlobalInvocationID.x;
-    if (i >= candidates.weak)
+    if (i >= candidates.count)
         return;
-    ivec2 p = unpack_pixel(candidates.pixels[candidates.room + i]);
+    ivec2 p = unpack_pixel(candidates.pixels[i]);
     if (!is_chosen(p))
         return;
     uint record = atomicAdd(listed.count, 1u);

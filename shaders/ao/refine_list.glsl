@@ -11,13 +11,13 @@ uint reserve_candidates(uint wanted)
     return first;
 }
 
-// The pixels first + (x, y) for which bit y * side + x is set.
+// The pixels first + (x, y) for which bit y * side + x is set. Sides are 1, 2 or 4.
 void list_block(ivec2 first, int side, uint bits)
 {
     uint next = bits == 0u ? 0u : reserve_candidates(uint(bitCount(bits)));
     while (bits != 0u) {
         int i = findLSB(bits);
-        candidates.pixels[next++] = pack_pixel(first + ivec2(i % side, i / side));
+        candidates.pixels[next++] = pack_pixel(first + ivec2(i & (side - 1), i >> (side >> 1))); // a division takes longer than the rest
         bits &= bits - 1u;
     }
 }
