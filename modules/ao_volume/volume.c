@@ -3,6 +3,7 @@
 #include "modules/ao_volume/boxes.h"
 #include "modules/ao_volume/corners.h"
 #include "modules/ao_volume/cut_internal.h"
+#include "modules/ao_volume/limits.def"
 #include "modules/bake/volume_file.h"
 
 #define NOOK_PARAM_STRUCT volume_params
@@ -22,11 +23,10 @@ enum {
 enum { LOCATION_PART = 0, LOCATION_OCCLUDERS = 1 };
 
 /**
- * Loop turns of a ray in a volume of surfels, densities or distances. At most: of surfels the inner loop's as many as a line crosses
- * voxels, the outer one's no more; densities one a voxel, distances two (MIN_STEP of volume_distance.glsl); and what sorting a list takes
- * for it. Usually: counted in rooms and around single objects, where the longest through surfels took 77.
+ * Loop turns of a ray in a volume of surfels, densities or distances: beside VOLUME_TURNS_PER_VOXEL what sorting a list takes for it; and as
+ * a rule, counted in rooms and around single objects, where the longest through surfels took 77.
  */
-enum { TURNS_PER_VOXEL = 2, TURNS_OF_SORTING = 5, TURNS_USUALLY = 128 };
+enum { TURNS_OF_SORTING = 5, TURNS_USUALLY = 128 };
 
 typedef struct volume_state {
     nook_direction_texture directions;
@@ -154,7 +154,7 @@ static volume_task make_task(const volume_params *p, const nook_ao_pass *pass)
                                p->combine == COMBINE_MULTIPLY || p->path == PATH_RASTER };
     volume_task task = { .usual = work, .most = work, .kept_format = GL_R32F };
     if (p->kind != NOOK_VOLUME_BINARY) {
-        task.most.steps = TURNS_PER_VOXEL * pass->line_max + TURNS_OF_SORTING;
+        task.most.steps = VOLUME_TURNS_PER_VOXEL * pass->line_max + TURNS_OF_SORTING;
         task.usual.steps = at_most(TURNS_USUALLY, task.most.steps);
         task.kept_format = p->kind == NOOK_VOLUME_DISTANCE ? GL_R32F : GL_RGBA32F;
     }

@@ -110,7 +110,7 @@ Passage walk(Ray ray, ivec3 size, int base)
     vec3 a = -ray.origin * inverse, b = (side - ray.origin) * inverse, near = min(a, b);
     float t = max(max(near.x, near.y), max(near.z, 0.0)), end = min(least(max(a, b)), ray.reach);
     ivec3 voxel = clamp(ivec3(floor(ray.origin + ray.along * t)), ivec3(0), size * BRICK - 1);
-    int most = (size.x + size.y + size.z) * BRICK, turns = 0;
+    int most = line_voxels(size * BRICK), turns = 0;
     for (int meetings = 0; meetings < most; meetings++) {
         bool found = false;
         uint surfel = 0u;

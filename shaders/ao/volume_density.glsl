@@ -59,7 +59,7 @@ Passage walk_volume(Occluder o, Receiver r, vec3 d, float limit)
     float t = max(max(near.x, near.y), max(near.z, 0.0)), out_at = least(max(a, b));
     float end = min(out_at, min(frame.r_max, limit) * metre);
     ivec3 voxel = clamp(ivec3(floor(origin + along * t)), ivec3(1), size - 2);
-    int most = size.x + size.y + size.z;
+    int most = line_voxels(size);
     for (int turns = 0; turns < most && t < (layer.alpha > 0.0 ? out_at : end); turns++) {
         steps++;
         float alpha = fetch_texel(volume_atlas, base + voxel).r;

@@ -9,7 +9,7 @@ const float FILTER_PRECISION = 0.015; // hardware interpolates with 8-bit weight
 const float EXCESS = 0.8661 + FILTER_PRECISION;
 // On a plane it is 1/2 at the most, h over it sqrt(h^2 + 1/4): below SURFACE within MIN_STEP / 2 of every plane, so that no sample
 // needs to lie nearer to the next one than MIN_STEP.
-const float MIN_STEP = 0.5;
+const float MIN_STEP = 1.0 / float(VOLUME_TURNS_PER_VOXEL);
 const float SURFACE = 0.5591 + FILTER_PRECISION; // sqrt(MIN_STEP^2 / 4 + 1/4)
 
 // The surface lies ahead as far as the distance and how fast it fell say; a ray that meets it flatter than this cosine is taken for one
@@ -35,7 +35,7 @@ Receiver receive(Occluder o, vec3 position, vec3 normal)
 }
 
 // Where samples lie does not depend on the limit, so that the nearest of several volumes is the same in whatever order they come.
-// A line within a volume is shorter than its three sides together, and no step is shorter than MIN_STEP: so many turns at the most.
+// A line within a volume is shorter than its three sides together, and no step is shorter than MIN_STEP.
 float march(Occluder o, Receiver r, vec3 d, float cosine, float limit, float jitter)
 {
     vec3 along = direction_to_voxel(o, d);
@@ -46,7 +46,7 @@ float march(Occluder o, Receiver r, vec3 d, float cosine, float limit, float jit
     float t = max(inside.x, params.lift / rise), end = min(inside.y, min(frame.r_max, limit) * metre);
     vec3 texel = 1.0 / vec3(textureSize(volume_atlas, 0));
     float before = 1e30, far = 1.0; // of the sample before; none: as if it had fallen straight
-    int most = int((o.size.x + o.size.y + o.size.z) / MIN_STEP);
+    int most = VOLUME_TURNS_PER_VOXEL * line_voxels(ivec3(o.size.xyz));
     for (int turns = 0; turns < most && t < end; turns++) {
         steps++;
         vec3 voxel = clamp(r.voxel + along * t, vec3(MARGIN), o.size.xyz - MARGIN);

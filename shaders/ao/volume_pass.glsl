@@ -13,6 +13,7 @@
 #include "ao/occluders.glsl"
 #include "nook/octahedral.glsl"
 #include "nook/params.glsl"
+#include "modules/ao_volume/limits.def"
 layout(std140, binding = 1) uniform Params {
 #include "modules/ao_volume/params.def"
 } params;
@@ -26,6 +27,13 @@ ivec2 place; // of this invocation's point in the images that are written
 
 const int COMBINE_MULTIPLY = 0;
 const int PATH_COMPUTE = 0;
+
+// A straight line crosses no more voxels of a volume than this.
+int line_voxels(ivec3 size)
+{
+    return size.x + size.y + size.z;
+}
+
 const int BATCH = 8; // rays whose hits are held in registers
 
 // A number for each ray of a batch. Not an array: that a loop indexes would lie in memory, and a software driver writes there lane by

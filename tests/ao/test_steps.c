@@ -1,4 +1,5 @@
 /* nook_ao_frame.counts = NOOK_AO_COUNTS_STEPS: turns of the loops in which rays are followed, pixel by pixel. */
+#include "modules/ao_volume/limits.def"
 #include "tests/support/ao_view.h"
 #include <string.h>
 
@@ -8,6 +9,7 @@
 #include <cmocka.h>
 
 enum { WIDTH = 24, HEIGHT = 16, PIXELS = WIDTH * HEIGHT, UNIT = NOOK_AO_FETCH_UNITS, RAYS = 4, STEPS = 7 };
+enum { LINE = 28 + 28 + 28 }; /* voxels: the volume of a box of 24, whole bricks of surfels */
 /* Of a pixel whatever its rays do: depth and normal when they are prepared, and again when it is traced. */
 enum { PREPARED = 4 * UNIT, DIRECTIONS = RAYS * UNIT };
 
@@ -73,15 +75,26 @@ static void test_a_step_is_a_fetch_of_a_volume_and_nothing_else_is_a_step(void *
     }
 }
 
-static void test_no_ray_takes_more_steps_than_it_may(void **state)
+static uint32_t count_most(nook_fixture_view *view)
 {
-    nook_fixture_view *view = *state;
     uint32_t steps[PIXELS], most = 0;
-    ao_view_param(view, "volume.kind", "binary");
     count(view, "volume", NOOK_AO_COUNTS_STEPS, steps);
     for (int i = 0; i < PIXELS; i++)
         most = steps[i] > most ? steps[i] : most;
-    assert_in_range(most, 1, RAYS * STEPS * UNIT);
+    return most;
+}
+
+static void test_no_ray_takes_more_steps_than_it_may(void **state)
+{
+    nook_fixture_view *view = *state;
+    static const char *const walked[] = { "density", "surfel", "distance" };
+    ao_view_param(view, "volume.kind", "binary");
+    assert_in_range(count_most(view), 1, RAYS * STEPS * UNIT);
+    for (size_t kind = 0; kind < NOOK_COUNT(walked); kind++) {
+        ao_view_param(view, "volume.kind", walked[kind]);
+        assert_in_range(count_most(view), 1, RAYS * VOLUME_TURNS_PER_VOXEL * LINE * UNIT);
+    }
+    ao_view_param(view, "volume.kind", "binary");
 }
 
 static void test_surfels_are_walked_to_in_steps_and_fetched_besides(void **state)
