@@ -26,14 +26,13 @@ static ao_fixture *prepare(void **state, const char *r_max)
 {
     ao_fixture *fixture = *state;
     ao_fixture_clear(fixture);
+    nook_ao_reset_params(fixture->view->ao); /* the constants are those of params.def */
+    ao_fixture_param(fixture, "ao.filter", "none");
     ao_fixture_param(fixture, "ao.falloff", "hard");
     ao_fixture_param(fixture, "ao.r_max", r_max);
     ao_fixture_param(fixture, "volume.kind", "surfel");
     ao_fixture_param(fixture, "volume.rays", "256");
     ao_fixture_param(fixture, "volume.combine", "union");
-    ao_fixture_param(fixture, "volume.lift", "0.15");
-    ao_fixture_param(fixture, "volume.tolerance", "0.1");
-    ao_fixture_param(fixture, "volume.own_distance", "0.35");
     return fixture;
 }
 

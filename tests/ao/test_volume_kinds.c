@@ -14,12 +14,12 @@ static const double origin[3] = { 0, 0, 0 }, up[3] = { 0, 0, 1 };
 static ao_fixture *prepare(void **state, const char *kind, const char *r_max)
 {
     static const char *const values[][2] = {
-        { "ao.falloff", "hard" },     { "volume.rays", "256" },          { "volume.combine", "union" },
-        { "volume.lift", "0.15" },    { "volume.own_distance", "0.35" }, { "volume.own_share", "0.75" },
-        { "reference.rays", "1024" },
+        { "ao.filter", "none" },       { "ao.falloff", "hard" },     { "volume.rays", "256" },
+        { "volume.combine", "union" }, { "reference.rays", "1024" },
     };
     ao_fixture *fixture = *state;
     ao_fixture_clear(fixture);
+    nook_ao_reset_params(fixture->view->ao); /* the constants are those of params.def */
     for (size_t i = 0; i < sizeof values / sizeof *values; i++)
         ao_fixture_param(fixture, values[i][0], values[i][1]);
     ao_fixture_param(fixture, "volume.kind", kind);
@@ -152,7 +152,7 @@ static void test_without_lift_floors_of_distances_darken_themselves(void **state
     for (int step = 0; step <= 6; step++)
         worst = fmax(worst, measure_floor(fixture, 0.05 + step * 0.1));
     assert_true(worst > 0.05);
-    ao_fixture_param(fixture, "volume.lift", "0.15");
+    ao_fixture_param(prepare(state, "distance", "0.6"), "volume.own_share", "1");
     for (int step = 0; step <= 6; step++)
         assert_true(measure_floor(fixture, 0.05 + step * 0.1) == 0.0);
 }
