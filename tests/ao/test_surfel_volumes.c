@@ -99,6 +99,25 @@ static void test_a_corner_is_right_up_to_a_small_part_of_a_voxel(void **state)
     }
 }
 
+/** The side of a valley, near enough and facing alike enough to be the own surface but for the rays that come towards it. */
+static void test_a_shallow_valley_is_no_part_of_the_own_surface(void **state)
+{
+    const double edge = 0.012 /* 0.3 voxels */, slope = 0.7;
+    ao_fixture *fixture = prepare(state, "0.6");
+    nook_fixture_mesh mesh = { 0 };
+    nook_fixture_add_quad(&mesh, (double[]){ -1.2, -1.2, 0 }, (double[]){ 1.2 + edge, 0, 0 }, (double[]){ 0, 2.4, 0 });
+    nook_fixture_add_quad(&mesh, (double[]){ edge, -1.2, 0 }, (double[]){ 1.2 * cos(slope), 0, 1.2 * sin(slope) },
+                          (double[]){ 0, 2.4, 0 });
+    ao_fixture_add(fixture, &mesh, 64);
+    nook_fixture_mesh_free(&mesh);
+    ao_fixture_param(fixture, "reference.rays", "1024");
+    double truth = ao_fixture_measure(fixture, "reference", origin, up, 0.3).mean;
+    assert_true(truth > 0.1);
+    double got = ao_fixture_measure(fixture, "volume", origin, up, 0.3).mean;
+    if (fabs(got - truth) >= 0.02)
+        fail_msg("A = %.4f, truth %.4f", got, truth);
+}
+
 /* ---- What the constants are for --------------------------------------------------------------------------------- */
 
 static void test_without_lift_floors_darken_themselves(void **state)
@@ -317,6 +336,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_spheres_are_open_from_outside_and_closed_from_inside, ao_fixture_setup,
                                         ao_fixture_teardown),
         cmocka_unit_test_setup_teardown(test_a_corner_is_right_up_to_a_small_part_of_a_voxel, ao_fixture_setup,
+                                        ao_fixture_teardown),
+        cmocka_unit_test_setup_teardown(test_a_shallow_valley_is_no_part_of_the_own_surface, ao_fixture_setup,
                                         ao_fixture_teardown),
         cmocka_unit_test_setup_teardown(test_without_lift_floors_darken_themselves, ao_fixture_setup,
                                         ao_fixture_teardown),
