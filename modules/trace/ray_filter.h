@@ -3,6 +3,10 @@
 #include "modules/ao/technique.h"
 #include <embree3/rtcore.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 typedef struct nook_ray_filter nook_ray_filter;
 
 /** @param mesh  with alphas; its arrays are borrowed @return NULL when there is no memory */
@@ -14,3 +18,7 @@ void nook_ray_filter_destroy(nook_ray_filter *filter); /**< NULL is allowed. Not
  * rays see on average what each would see if it were weakened by 1 - alpha, and the same ray meets the same triangles every time.
  */
 void nook_ray_filter_apply(nook_ray_filter *filter, RTCGeometry geometry);
+
+#ifdef __cplusplus
+}
+#endif
