@@ -98,6 +98,12 @@ static int compare_ids(const void *a, const void *b)
     return first->id < second->id ? -1 : first->id > second->id;
 }
 
+static void order(volume_atlas *atlas, int (*compare)(const void *, const void *))
+{
+    if (atlas->seen.count > 1) /* there may be no array yet */
+        qsort(atlas->seen.items, atlas->seen.count, sizeof *atlas->seen.items, compare);
+}
+
 /* A volume's voxels from its box in one texture to that in another. */
 static void move(volume_atlas *atlas, const atlas_box *from, const atlas_box *to, uint32_t to_texture)
 {
@@ -155,7 +161,7 @@ static nook_result move_to(volume_atlas *atlas, const uint32_t sides[3], atlas_b
         pinned += !atlas->seen.items[i].streamed;
     if (!box_tree_reset(&tree, sides))
         return nook_fail(NOOK_E_MEMORY, "no memory for room for volumes");
-    qsort(atlas->seen.items, atlas->seen.count, sizeof *atlas->seen.items, compare_entries);
+    order(atlas, compare_entries);
     uint32_t settled = settle(&tree, atlas->seen.items, atlas->seen.count, boxes, places);
     nook_result result =
         settled < pinned ? nook_fail(NOOK_E_RANGE, "room of %ux%ux%u voxels does not hold what stays: give more",
@@ -165,7 +171,7 @@ static nook_result move_to(volume_atlas *atlas, const uint32_t sides[3], atlas_b
         take_over(atlas, &tree, &texture, settled, boxes, places);
     else
         box_tree_release(&tree);
-    qsort(atlas->seen.items, atlas->seen.count, sizeof *atlas->seen.items, compare_ids);
+    order(atlas, compare_ids);
     return result;
 }
 
