@@ -12,6 +12,7 @@ static const nook_command benches[] = {
     { "occluders", "occlusion by 1 to 4096 volumes, apart and piled up, and by one that holds them all",
       nook_bench_run_occluders },
     { "reload", "how soon a saved shader is in the picture", nook_bench_run_reload },
+    { "reuse", "what ao.reuse saves and costs while the camera walks and turns", nook_bench_run_reuse },
     { "physics", "a step of a level's rigid bodies: asleep, awake, thrown about; rays", nook_bench_run_physics },
     { "bake", "surfels of up to 100 million triangles at four resolutions, and after an edit", nook_bench_run_bake },
     { "play", "every frame of a recorded game, as it is played", nook_bench_run_play },

@@ -8,6 +8,7 @@ int nook_bench_run_frame(const nook_app *app, int argc, char **argv);
 int nook_bench_run_reload(const nook_app *app, int argc, char **argv);
 int nook_bench_run_cost(const nook_app *app, int argc, char **argv);
 int nook_bench_run_occluders(const nook_app *app, int argc, char **argv);
+int nook_bench_run_reuse(const nook_app *app, int argc, char **argv);
 int nook_bench_run_physics(const nook_app *app, int argc, char **argv);
 int nook_bench_run_bake(const nook_app *app, int argc, char **argv);
 int nook_bench_run_play(const nook_app *app, int argc, char **argv);

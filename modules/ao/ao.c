@@ -90,6 +90,7 @@ void nook_ao_destroy(nook_ao *ao)
         ao_slot_release(ao, &ao->slots[i]);
     ao_targets_release(ao->gpu, &ao->targets);
     ao_refine_release(ao->gpu, &ao->refine);
+    ao_reuse_release(ao);
     for (int kind = 0; kind < NOOK_VOLUME_KINDS; kind++)
         volume_atlas_release(&ao->atlases[kind]);
     brick_pool_release(&ao->pool);

@@ -6,6 +6,7 @@
 #include "modules/ao/mesh_alphas_internal.h"
 #include "modules/ao/nook_ao.h"
 #include "modules/ao/refine_internal.h"
+#include "modules/ao/reuse_internal.h"
 #include "modules/ao/slicemap.h"
 #include "modules/ao/technique.h"
 #include "modules/ao/volume_atlas_internal.h"
@@ -91,6 +92,7 @@ struct nook_ao {
     uint32_t slot_count, current;
     ao_targets targets;
     ao_refine refine;
+    ao_reuse reuse;
     nook_buffer frame, occluder_buffer, counter;
     uint32_t nearest_sampler;                /**< Of the host's textures. */
     nook_texture occluder_texture;           /**< The buffer's rows as texels. */

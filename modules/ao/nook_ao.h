@@ -22,7 +22,7 @@
 extern "C" {
 #endif
 
-#define NOOK_AO_VERSION 3
+#define NOOK_AO_VERSION 4
 
 typedef struct nook_ao nook_ao; /**< One per device and view. */
 typedef struct nook_ao_volume {
@@ -71,7 +71,7 @@ typedef struct nook_ao_frame {
     nook_ao_texture depth;      /**< Required. Device depth at full size, row 0 at the bottom. */
     nook_ao_texture normal; /**< World space, octahedral RG (shaders/nook/octahedral.glsl). None: rebuilt from depth.
                                  Give the geometric normal: rays below the true surface are nobody's occlusion. */
-    uint32_t index;         /**< Seeds the noise. Same index, same pixels. */
+    uint32_t index;         /**< Seeds the noise. Same index, same pixels; with ao.reuse where nothing has moved. */
     /** Only its visibility is computed, bit for bit as in a record of the whole picture; what lies outside stays as it was. So
         several techniques can share one picture. All zero: the whole. */
     nook_rectangle part;
@@ -247,6 +247,8 @@ typedef struct nook_ao_statistics {
     uint64_t
         texture_bytes; /**< Of the last record's textures: depth, normals and visibility at the host's size and the trace's. Those of
                             other scales are kept besides, once used. */
+    uint32_t
+        traced; /**< Pixels that the last record traced, when ao.reuse let it take over the others; UINT32_MAX: all of them. */
 } nook_ao_statistics;
 void nook_ao_get_statistics(nook_ao *ao, nook_ao_statistics *out_statistics); /**< Waits for the GPU. */
 

@@ -116,6 +116,53 @@ uint32_t ao_collect_volumes(nook_ao *ao, const nook_matrix *view_from_world, uin
     return count;
 }
 
+/** Two that a trace cannot tell from each other. */
+static int is_same(const ao_marched *a, const ao_marched *b)
+{
+    const nook_volume_info *x = &a->info, *y = &b->info;
+    return a->volume == b->volume && a->version == b->version && x->content_hash == y->content_hash &&
+           x->width == y->width && x->height == y->height && x->depth == y->depth && x->voxel_size == y->voxel_size &&
+           memcmp(x->origin, y->origin, sizeof x->origin) == 0 &&
+           memcmp(&a->world_from_mesh, &b->world_from_mesh, sizeof a->world_from_mesh) == 0;
+}
+
+static uint32_t version_of(const nook_ao *ao, uint32_t id, const nook_volume_info *info)
+{
+    return info->kind == NOOK_VOLUME_SURFEL ? 0 : volume_atlas_find(&ao->atlases[info->kind], id)->version;
+}
+
+static void add_moved(ao_reuse *reuse, const nook_matrix *view_from_world, const ao_marched *marched)
+{
+    nook_matrix view_from_mesh = nook_matrix_multiply(view_from_world, &marched->world_from_mesh);
+    if (compose(&marched->info, &view_from_mesh, &reuse->moved[reuse->moved_count]))
+        reuse->moved_count++;
+}
+
+void ao_collect_moved(nook_ao *ao, const nook_matrix *view_from_world, bool compare)
+{
+    ao_reuse *reuse = &ao->reuse;
+    uint32_t count = 0, before = compare ? reuse->marched_count : 0;
+    reuse->moved_count = 0;
+    for (uint32_t i = 0; i < ao->occluder_count; i++) {
+        const uint32_t id = ao->occluders[i].volume.id;
+        const nook_volume_info *info = ao_volume_info(ao, id, ao->kinds);
+        if (!info)
+            continue;
+        const ao_marched now = { id, version_of(ao, id, info), *info, matrix_of(ao->occluders[i].world_from_mesh) };
+        ao_marched *kept = &reuse->marched[count];
+        bool known = count < before, same = known && is_same(kept, &now);
+        if (compare && !same)
+            add_moved(reuse, view_from_world, &now);
+        if (known && !same)
+            add_moved(reuse, view_from_world, kept);
+        *kept = now;
+        count++;
+    }
+    for (uint32_t i = count; i < before; i++)
+        add_moved(reuse, view_from_world, &reuse->marched[i]);
+    reuse->marched_count = count;
+}
+
 uint32_t ao_collect_meshes(nook_ao *ao, const nook_matrix *view_from_world)
 {
     uint32_t count = 0;

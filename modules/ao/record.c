@@ -284,13 +284,22 @@ static ao_work work_of(const nook_ao *ao, const ao_slot *slot, const nook_ao_fra
                       .counting = technique->exact ? 0 : counting /* truth reads nothing of the kind */ };
 }
 
-static nook_result trace(nook_ao *ao, const ao_slot *slot, nook_ao_pass *pass)
+static nook_result trace(nook_ao *ao, const nook_ao_frame *frame, const ao_slot *slot, nook_ao_pass *pass)
 {
+    bool reuses = ao_reuse_is_wanted(ao, slot);
+    nook_result result = reuses ? ao_reuse_choose(ao, frame, slot, pass) : NOOK_OK;
+    if (!reuses)
+        ao->reuse.holds = false; /* the next one would have to know what has happened meanwhile */
+    if (result != NOOK_OK)
+        return result;
     if (slot->technique->params_size)
         nook_buffer_update(ao->gpu, slot->buffer, 0, slot->params, slot->technique->params_size);
     pass->params = slot->buffer;
     bind_pass(pass);
-    return slot->technique->record(slot->state, slot->params, pass);
+    result = slot->technique->record(slot->state, slot->params, pass);
+    if (reuses && result == NOOK_OK)
+        ao_reuse_keep(ao, frame, pass);
+    return result;
 }
 
 /** Everything that the trace has bound is bound again: filter and upscaling came between. */
@@ -300,6 +309,7 @@ static nook_result trace_listed(nook_ao *ao, const nook_ao_frame *frame, const a
     if (result != NOOK_OK)
         return result;
     pass->listed = &ao->refine.listed;
+    pass->tiles = NULL;
     pass->visibility = ao->refine.traced;
     pass->width = ao->refine.traced.width, pass->height = ao->refine.traced.height;
     bind_pass(pass);
@@ -319,7 +329,7 @@ nook_result nook_ao_record(nook_ao *ao, const nook_ao_frame *frame)
         result = ao_begin(ao, frame, &work, &pass);
     if (result != NOOK_OK)
         return result;
-    result = trace(ao, slot, &pass);
+    result = trace(ao, frame, slot, &pass);
     if (result == NOOK_OK && work.passes > 0)
         result = ao_filter(ao, frame);
     if (result == NOOK_OK && work.refining == AO_REFINING_TRACED)
@@ -357,6 +367,7 @@ void nook_ao_get_statistics(nook_ao *ao, nook_ao_statistics *out_statistics)
     out_statistics->texture_bytes =
         ao_targets_bytes(&ao->targets, ao->scale) + (ao->refining ? ao_refine_bytes(&ao->refine) : 0);
     out_statistics->refined = ao->refining ? ao_refine_count(ao->gpu, &ao->refine) : 0;
+    out_statistics->traced = ao_reuse_count_traced(ao);
     out_statistics->fetches_per_pixel = 0.0;
     out_statistics->outside = 0;
     if (!ao->shared.count)

@@ -14,7 +14,7 @@
 extern "C" {
 #endif
 
-#define NOOK_AO_TECHNIQUE_VERSION 9
+#define NOOK_AO_TECHNIQUE_VERSION 10
 
 /** A box of voxels. */
 typedef struct nook_ao_box {
@@ -63,6 +63,10 @@ typedef struct nook_ao_pass {
     /** Only these pixels are wanted, begin[] to end[] - 1: all others must keep what visibility holds. */
     uint32_t begin[2], end[2];
     uint32_t origin[2]; /**< Pixel of invocation (0, 0) of a dispatch, see nook_ao_pass_groups: a multiple of 8. */
+    /** NULL: all wanted pixels are traced. Else only those that this buffer lists tile by tile: shaders/ao/tiles.glsl, binding
+        NOOK_AO_BINDING_TILES. It begins with the groups of a dispatch. The others have been written. Only for techniques that say
+        that they are reusable. */
+    const nook_buffer *tiles;
 
     /** The same numbers as in the frame block, for techniques that run on the CPU. */
     double r_max;
@@ -100,6 +104,7 @@ typedef struct nook_ao_pass {
 } nook_ao_pass;
 
 enum { NOOK_AO_IN_VOLUMES = 1, NOOK_AO_IN_MESHES = 2 };
+enum { NOOK_AO_BINDING_TILES = 3 }; /**< Of storage. */
 
 /** What a shared library of a technique lends (engine/module/module.h): its interface is a nook_ao_technique. */
 #define NOOK_AO_TECHNIQUE_KIND "ao.technique"
@@ -112,6 +117,10 @@ typedef struct nook_ao_technique {
     uint32_t inputs;     /**< NOOK_AO_IN_*, beyond depth and normal, which all have. */
     /** NOOK_AO_IN_VOLUMES: the kind of volume that it marches with these parameters, a nook_volume_kind. NULL: binary. */
     uint32_t (*volume_kind)(const void *params);
+    /** 1: with these parameters a pixel's visibility follows from its surface, the volumes within r_max and the seed, wherever the
+        camera is; and record traces no more than pass->tiles where that is given. So it can be taken over from the frame before:
+        ao.reuse. NULL: never. */
+    uint32_t (*is_reusable)(const void *params);
     uint32_t exact; /**< 1: truth; always at full resolution, and not filtered, */
     uint32_t (*is_filtered)(
         const void *params); /**< unless this says so of an exact one with these parameters. May be NULL. */

@@ -126,8 +126,10 @@ const atlas_entry *volume_atlas_find(const volume_atlas *atlas, uint32_t id)
 void volume_atlas_set_info(volume_atlas *atlas, uint32_t id, const nook_volume_info *info)
 {
     uint32_t i = entry_index(atlas, id);
-    if (i != UINT32_MAX)
-        atlas->seen.items[i].info = *info;
+    if (i == UINT32_MAX)
+        return;
+    atlas->seen.items[i].info = *info;
+    atlas->seen.items[i].version++;
 }
 
 /* ---- The texture --------------------------------------------------------------------------------------------------- */

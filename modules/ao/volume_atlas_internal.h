@@ -15,6 +15,7 @@ typedef struct atlas_entry {
     nook_volume_info info;
     atlas_box box;
     uint32_t place;   /**< Of the box in the tree. */
+    uint32_t version; /**< Another one when its contents are made anew. */
     uint8_t *pending; /**< Voxels that are not on the GPU yet; NULL once they are. Owned. */
     uint32_t written; /**< Of one that comes: its slices that are on the GPU. */
     bool streamed;
@@ -55,7 +56,7 @@ nook_result volume_atlas_add(volume_atlas *atlas, uint32_t id, nook_volume *volu
 void volume_atlas_remove(volume_atlas *atlas, uint32_t id); /**< An id that is not there is allowed. */
 /** @return NULL for a stale id */
 const atlas_entry *volume_atlas_find(const volume_atlas *atlas, uint32_t id);
-/** Says what lies in a volume's box now; no larger than the box. Ids that are stale are passed over. */
+/** Says what lies in a volume's box from now on, which is about to be written anew; no larger than the box. Ids that are stale are passed over. */
 void volume_atlas_set_info(volume_atlas *atlas, uint32_t id, const nook_volume_info *info);
 /** Brings the texture up to date. @return NOOK_E_MEMORY, NOOK_E_DEVICE */
 nook_result volume_atlas_flush(volume_atlas *atlas);

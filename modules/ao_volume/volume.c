@@ -111,7 +111,8 @@ static nook_result trace(volume_state *s, const nook_ao_pass *pass, const volume
 {
     uint32_t all[2];
     nook_ao_pass_groups(pass, TILE_SIZE, TILE_SIZE, all);
-    const GLuint nothing[3] = { 0, pass->listed ? 1 : all[1], 1 };
+    const nook_buffer *groups = pass->listed ? pass->listed : pass->tiles;
+    const GLuint nothing[3] = { 0, groups ? 1 : all[1], 1 };
     volume_cut likely = volume_cut_likely(&task->usual), careful = volume_cut_careful(&task->most);
     likely.sure = likely.sure && task->usual.steps == task->most.steps;
     if (volume_cut_needs_image(&task->usual, &likely) || volume_cut_needs_image(&task->most, &careful)) {
@@ -121,11 +122,13 @@ static nook_result trace(volume_state *s, const nook_ao_pass *pass, const volume
     }
     nook_buffer_update(pass->gpu, s->again, 0, nothing, sizeof nothing);
     nook_bind_storage(pass->gpu, BINDING_AGAIN, s->again);
+    if (pass->tiles)
+        nook_bind_storage(pass->gpu, NOOK_AO_BINDING_TILES, *pass->tiles);
     nook_bind_texture(pass->gpu, BINDING_DIRECTIONS, s->directions.texture);
     nook_bind_image(pass->gpu, BINDING_VISIBILITY, pass->visibility, GL_READ_WRITE);
     nook_program_use(pass->gpu, task->program);
     nook_uniform_int(pass->gpu, LOCATION_OCCLUDERS, &(const int32_t){ (int32_t)pass->occluder_count }, 1);
-    dispatch_parts(pass, &task->usual, &likely, task->program, pass->listed);
+    dispatch_parts(pass, &task->usual, &likely, task->program, groups);
     if (!likely.sure)
         dispatch_parts(pass, &task->most, &careful, task->program, &s->again);
     return NOOK_OK;
@@ -146,6 +149,13 @@ static uint32_t volume_kind(const void *params)
 {
     const volume_params *p = params;
     return (uint32_t)p->kind; /* the choices of params.def stand in the order of nook_volume_kind */
+}
+
+/** Boxes that are drawn blend over all that they cover. */
+static uint32_t is_reusable(const void *params)
+{
+    const volume_params *p = params;
+    return p->path != PATH_RASTER;
 }
 
 static volume_task make_task(const volume_params *p, const nook_ao_pass *pass)
@@ -204,7 +214,8 @@ static nook_result choose_program(volume_state *s, const volume_params *p, const
         return result;
     if (corners)
         nook_bind_texture(pass->gpu, BINDING_CORNERS, s->corners.texture);
-    snprintf(defines, sizeof defines, "%s%s", corners ? "#define CORNERS\n" : "", nook_ao_pass_defines(pass));
+    snprintf(defines, sizeof defines, "%s%s%s", corners ? "#define CORNERS\n" : "",
+             pass->tiles ? "#define TILES\n" : "", nook_ao_pass_defines(pass));
     if (is_drawn(p, pass))
         return nook_program_raster(pass->gpu, "shaders/ao/volume_box.vert.glsl", drawn[p->kind], defines, out_program);
     return nook_program_compute(pass->gpu, computed[p->kind], defines, out_program);
@@ -234,6 +245,7 @@ const nook_ao_technique nook_ao_volume_technique = {
     .inputs = NOOK_AO_IN_VOLUMES,
     .volume_kind = volume_kind,
     .refines = 1,
+    .is_reusable = is_reusable,
     .params = param_table,
     .param_count = NOOK_COUNT(param_table),
     .params_size = sizeof(volume_params),

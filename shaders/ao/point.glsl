@@ -39,7 +39,11 @@ void add_counts_of(Point point)
 #else
 Point point_of_invocation()
 {
+#ifdef TILES
+    ivec2 pixel = tile_pixel();
+#else
     ivec2 pixel = invocation_pixel();
+#endif
     bool wanted = is_wanted(pixel);
     float depth = wanted ? fetch_trace(depth_texture, pixel).r : 0.0;
     return Point(pixel, pixel, wanted, depth, view_position(pixel, depth));
@@ -52,6 +56,6 @@ vec3 normal_of(Point point)
 
 void add_counts_of(Point point)
 {
-    add_counts();
+    add_counts_of(point.pixel * frame.scale, frame.scale);
 }
 #endif

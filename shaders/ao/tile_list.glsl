@@ -2,10 +2,9 @@
 // Per work group of 8x8 pixels: which occluders can reach any of its pixels. Cost then follows covered pixels and near
 // occluders, not objects times screen. Lists are made for CHUNK occluders at a time, so that none is ever left out.
 #include "ao/occluders.glsl"
+#include "ao/tiles.glsl"
 
-const int TILE_SIZE = 8;
 const int CHUNK = 256;
-shared uint tile_depth_min, tile_depth_max; // as bits: positive floats sort like integers
 shared uint tile_count;
 shared int tile_items[CHUNK];
 vec3 tile_box_min, tile_box_max; // view space, the same in every invocation
@@ -41,8 +40,15 @@ bool tile_begin(float depth, vec3 position)
     return tile_least[0] <= tile_most[0];
 }
 #else
-// Call once, in uniform control flow; `depth` is 0 without geometry. @return false when no pixel of the tile has geometry
-bool tile_begin(float depth, vec3 position)
+#ifdef TILES
+vec2 tile_depths(float depth)
+{
+    return left.tiles[gl_WorkGroupID.x].depths;
+}
+#else
+shared uint tile_depth_min, tile_depth_max; // as bits: positive floats sort like integers
+
+vec2 tile_depths(float depth)
 {
     if (gl_LocalInvocationIndex == 0u) {
         tile_depth_min = 0x7f7fffffu;
@@ -54,8 +60,16 @@ bool tile_begin(float depth, vec3 position)
         atomicMax(tile_depth_max, floatBitsToUint(depth));
     }
     barrier();
-    float nearest = uintBitsToFloat(tile_depth_min), farthest = uintBitsToFloat(tile_depth_max);
-    ivec2 first = frame.origin + ivec2(gl_WorkGroupID.x, group_row()) * TILE_SIZE, last = min(first + TILE_SIZE - 1, frame.size - 1);
+    return uintBitsToFloat(uvec2(tile_depth_min, tile_depth_max));
+}
+#endif
+
+// Call once, in uniform control flow; `depth` is 0 without geometry. @return false when no pixel of the tile has geometry
+bool tile_begin(float depth, vec3 position)
+{
+    vec2 depths = tile_depths(depth);
+    float nearest = depths.x, farthest = depths.y;
+    ivec2 first = tile_first(), last = min(first + TILE_SIZE - 1, frame.size - 1);
     vec3 a = full_ray(vec2(full_pixel(first))), b = full_ray(vec2(full_pixel(last)));
     tile_box_min = min(min(a * nearest, a * farthest), min(b * nearest, b * farthest));
     tile_box_max = max(max(a * nearest, a * farthest), max(b * nearest, b * farthest));

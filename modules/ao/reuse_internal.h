@@ -1,0 +1,57 @@
+/**
+ * reuse_internal.h - values of the last trace that are taken over into the next one; inside modules/ao only. docs/techniques.md, Reuse.
+ */
+#pragma once
+#include "engine/core/matrix.h"
+#include "engine/gpu/gpu.h"
+#include "modules/ao/nook_ao.h"
+#include "modules/bake/volume_file.h"
+#include <stdbool.h>
+
+struct ao_gpu_occluder;
+struct ao_slot;
+struct nook_ao_pass;
+
+/** An occluder as a record has marched it. */
+typedef struct ao_marched {
+    uint32_t volume, version; /**< Its id, and which contents it had. */
+    nook_volume_info info;
+    nook_matrix world_from_mesh;
+} ao_marched;
+
+/** All zero before the first record that reuses. */
+typedef struct ao_reuse {
+    bool holds;                             /**< Of the last record, whose values may be taken over: */
+    nook_texture depth, normal, visibility; /**< Of the trace's size. */
+    nook_texture ages[2];                   /**< R8UI: frames since a pixel was traced; [0] */
+    nook_matrix view_from_world, clip_from_view;
+    ao_marched *marched; /**< Room for nook_ao.occluder_max. Owned. */
+    uint32_t marched_count;
+    void *settings; /**< The technique's descriptor, shared and own parameters, as bytes. Owned. */
+    size_t settings_size;
+    uint32_t number; /**< Of records that reuse. */
+
+    struct ao_gpu_occluder *moved; /**< Scratch of twice occluder_max: as they are, as they were. Owned. */
+    uint32_t moved_count;
+    nook_buffer moved_buffer, block, tiles; /**< `tiles`: shaders/ao/tiles.glsl. */
+    nook_texture moved_texture;             /**< Shows moved_buffer. */
+} ao_reuse;
+
+/** Whether a record of this technique takes over, and is taken over from. */
+bool ao_reuse_is_wanted(const nook_ao *ao, const struct ao_slot *slot);
+/**
+ * Before a trace: takes over what it can, and lists what is left. Binds over what a pass has bound.
+ * @param pass  its `tiles` are set @return NOOK_E_MEMORY, NOOK_E_DEVICE: nothing is taken over by the next one either
+ */
+nook_result ao_reuse_choose(nook_ao *ao, const nook_ao_frame *frame, const struct ao_slot *slot,
+                            struct nook_ao_pass *pass);
+/** After it: keeps what the next one may take over. */
+void ao_reuse_keep(nook_ao *ao, const nook_ao_frame *frame, const struct nook_ao_pass *pass);
+/** Pixels that the last record has listed; UINT32_MAX when it took no part. Waits for the GPU. */
+uint32_t ao_reuse_count_traced(const nook_ao *ao);
+void ao_reuse_release(nook_ao *ao);
+/**
+ * Composes into ao->reuse.moved those of the marched occluders that are not as the last record has marched them, as they are and as
+ * they were; then remembers them all as they are. Without `compare` it only remembers.
+ */
+void ao_collect_moved(nook_ao *ao, const nook_matrix *view_from_world, bool compare);
