@@ -146,7 +146,7 @@ static void assert_alike(nook_fixture_view *view, const char *what)
     record(view, "raster", drawn);
     for (int i = 0; i < PIXELS; i++) {
         darkest = fmin(darkest, computed[i]);
-        if (!(fabs(computed[i] - drawn[i]) <= 24.0 / 16777216.0))
+        if (!(fabs((double)computed[i] - (double)drawn[i]) <= 24.0 / 16777216.0))
             fail_msg("%s: pixel %d, %d: computed %.8f, drawn %.8f", what, i % WIDTH, i / WIDTH, computed[i], drawn[i]);
     }
     assert_true(darkest < 0.8); /* there is something to be alike */
