@@ -111,22 +111,22 @@ enum { NOOK_AO_BINDING_TILES = 3 }; /**< Of storage. */
 
 /** The one thing a technique module exports. */
 typedef struct nook_ao_technique {
-    uint32_t version;    /**< NOOK_AO_TECHNIQUE_VERSION, else the module is refused with NOOK_E_VERSION. */
+    uint32_t version; /**< NOOK_AO_TECHNIQUE_VERSION, else the module is refused with NOOK_E_VERSION. */
+    uint32_t inputs;  /**< NOOK_AO_IN_*, beyond depth and normal, which all have. */
+    uint32_t exact;   /**< 1: truth; always at full resolution, and not filtered, unless is_filtered says so. */
+    /** 1: record can trace a list (pass->listed), which all do that dispatch by the functions below and find their point by
+        shaders/ao/point.glsl. */
+    uint32_t refines;
     const char *name;    /**< [a-z0-9_]+; the folder is modules/ao_<name>. */
     const char *summary; /**< One line for the menu. */
-    uint32_t inputs;     /**< NOOK_AO_IN_*, beyond depth and normal, which all have. */
     /** NOOK_AO_IN_VOLUMES: the kind of volume that it marches with these parameters, a nook_volume_kind. NULL: binary. */
     uint32_t (*volume_kind)(const void *params);
     /** 1: with these parameters a pixel's visibility follows from its surface, the volumes within r_max and the seed, wherever the
         camera is; and record traces no more than pass->tiles where that is given. So it can be taken over from the frame before:
         ao.reuse. NULL: never. */
     uint32_t (*is_reusable)(const void *params);
-    uint32_t exact; /**< 1: truth; always at full resolution, and not filtered, */
-    uint32_t (*is_filtered)(
-        const void *params); /**< unless this says so of an exact one with these parameters. May be NULL. */
-    uint32_t
-        refines; /**< 1: record can trace a list (pass->listed), which all do that dispatch by the functions below and find their point by
-                          shaders/ao/point.glsl. */
+    /** Of an exact one: whether it is filtered with these parameters. NULL: never. */
+    uint32_t (*is_filtered)(const void *params);
     const nook_param *params;
     uint32_t param_count;
     uint32_t params_size;   /**< Bytes of the struct made from params.def. */
