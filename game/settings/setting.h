@@ -10,7 +10,7 @@
 #include "modules/ao/nook_ao.h"
 #include <stdbool.h>
 
-enum { NOOK_SETTING_PARAMS_MAX = 24, NOOK_SETTING_TEXT_MAX = 1024, NOOK_SETTING_VALUE_MAX = 64 };
+enum { NOOK_SETTING_PARAMS_MAX = 32, NOOK_SETTING_TEXT_MAX = 1024, NOOK_SETTING_VALUE_MAX = 64 };
 
 typedef struct nook_setting_param {
     const nook_param *param; /**< Of the technique's or the shared table. */
