@@ -78,6 +78,8 @@ int stream_finer(const stream_item *item, int level);
 
 /** Makes the rooms as budget and bodies ask, and says in stream->tight whether there are any. */
 nook_result stream_fit(nook_stream *stream);
+/** Whether a level is no larger than its kind's room; where everything fits, yes. */
+bool stream_room_holds(const nook_stream *stream, const stream_item *item, int level);
 /** Gives a body that was just added its place, where everything has one. */
 void stream_settle_in(nook_stream *stream, stream_item *item);
 /** Weighs bodies by what is seen. */

@@ -174,6 +174,14 @@ static nook_result make_atlas_room(nook_stream *stream, int kind, uint64_t bytes
     return NOOK_OK;
 }
 
+bool stream_room_holds(const nook_stream *stream, const stream_item *item, int level)
+{
+    const nook_volume_info *info = &item->levels[level].info;
+    const uint32_t *sides = stream->sides[info->kind];
+    return !stream->tight || info->kind == NOOK_VOLUME_SURFEL ||
+           (info->width <= sides[0] && info->height <= sides[1] && info->depth <= sides[2]);
+}
+
 /* In the proportion that all of them have. */
 static nook_result make_pool_room(nook_stream *stream, uint64_t bytes, bool *out_made)
 {

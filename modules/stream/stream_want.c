@@ -140,7 +140,8 @@ static void sift_down(stream_item **heap, uint32_t count, uint32_t i)
 static bool next_step(const nook_stream *stream, stream_item *item)
 {
     item->step = stream_finer(item, item->target);
-    item->score = item->step == LEVEL_NONE ? 0.0 : step_score(stream, item, item->target, item->step);
+    bool possible = item->step != LEVEL_NONE && stream_room_holds(stream, item, item->step);
+    item->score = possible ? step_score(stream, item, item->target, item->step) : 0.0;
     return item->score > 0.0;
 }
 
