@@ -7,10 +7,16 @@ enum { TRIES = 8 /* of a frame, to find places */ };
 
 /* ---- Asking -------------------------------------------------------------------------------------------------------- */
 
-/* The level to ask for next. What is not there at all begins with its coarsest: that is there soonest. */
+/* The level to ask for next. What is not there at all begins with the coarsest that does anything: that is there soonest. */
 static int next_level(const nook_stream *stream, const stream_item *item)
 {
-    return stream->tight && item->resident == LEVEL_NONE ? stream_finer(item, LEVEL_NONE) : item->target;
+    int level = LEVEL_NONE;
+    if (!stream->tight || item->resident != LEVEL_NONE)
+        return item->target;
+    do
+        level = stream_finer(item, level);
+    while (level != item->target && stream_error(item, level) >= 1.0);
+    return level;
 }
 
 static bool is_finer(int a, int b)

@@ -136,13 +136,19 @@ static void sift_down(stream_item **heap, uint32_t count, uint32_t i)
     }
 }
 
-/* @return false: there is no step that does anything */
+/* Of all finer levels the one that does most for a byte: one that does nothing is stepped over. @return false: none does anything */
 static bool next_step(const nook_stream *stream, stream_item *item)
 {
-    item->step = stream_finer(item, item->target);
-    bool possible = item->step != LEVEL_NONE && stream_room_holds(stream, item, item->step);
-    item->score = possible ? step_score(stream, item, item->target, item->step) : 0.0;
-    return item->score > 0.0;
+    item->step = LEVEL_NONE;
+    item->score = 0.0;
+    for (int level = stream_finer(item, item->target); level != LEVEL_NONE; level = stream_finer(item, level)) {
+        double score = stream_room_holds(stream, item, level) ? step_score(stream, item, item->target, level) : 0.0;
+        if (score > item->score) {
+            item->score = score;
+            item->step = level;
+        }
+    }
+    return item->step != LEVEL_NONE;
 }
 
 static void choose_of_kind(nook_stream *stream, int kind)
