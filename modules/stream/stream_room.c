@@ -95,7 +95,7 @@ static void widen(uint32_t sides[3], const nook_volume_info *info, uint64_t byte
         memcpy(sides, wider, sizeof wider);
 }
 
-/* Wide enough for the coarsest level of each body, one at a time, then for finer ones as far as it goes. */
+/* Wide enough for the coarsest level of each body that does anything, one at a time, then for finer ones as far as it goes. */
 static void choose_least(const nook_stream *stream, int kind, uint64_t bytes, uint32_t out_least[3])
 {
     for (int axis = 0; axis < 3; axis++)
@@ -103,7 +103,7 @@ static void choose_least(const nook_stream *stream, int kind, uint64_t bytes, ui
     for (int step = 1; step <= NOOK_STREAM_LEVELS_MAX; step++) {
         for (uint32_t i = 0; i < stream->count; i++) {
             const stream_item *item = stream->volumes[i].items[kind];
-            if (item && item->level_count >= step)
+            if (item && item->level_count >= step && item->levels[item->level_count - step].error < 1.0)
                 widen(out_least, &item->levels[item->level_count - step].info, bytes);
         }
     }
