@@ -2,14 +2,20 @@
 #include "modules/ao/ao_internal.h"
 #include <stdio.h>
 
-nook_result ao_dispatch_over(nook_ao *ao, const char *path, const char *defines, uint32_t width, uint32_t height)
+/** The program of a pass, with what all of them read bound. */
+static nook_result prepare_pass(nook_ao *ao, const char *path, const char *defines, nook_program *out_program)
 {
-    nook_program program;
     char all[128];
     snprintf(all, sizeof all, "%s%s", defines, ao->counting ? "#define COUNTING\n" : "");
     nook_bind_uniform(ao->gpu, 0, ao->frame);
     nook_bind_storage(ao->gpu, AO_BINDING_COUNTER, ao->counter);
-    nook_result result = nook_program_compute(ao->gpu, path, all, &program);
+    return nook_program_compute(ao->gpu, path, all, out_program);
+}
+
+nook_result ao_dispatch_over(nook_ao *ao, const char *path, const char *defines, uint32_t width, uint32_t height)
+{
+    nook_program program;
+    nook_result result = prepare_pass(ao, path, defines, &program);
     if (result == NOOK_OK)
         nook_dispatch(ao->gpu, program, nook_groups(width, 16), nook_groups(height, 8), 1);
     return result;
@@ -127,11 +133,7 @@ static nook_result upscale(nook_ao *ao, int has_normal)
 static nook_result dispatch_listed(nook_ao *ao, const char *path, const char *defines, nook_buffer groups)
 {
     nook_program program;
-    char all[128];
-    snprintf(all, sizeof all, "%s%s", defines, ao->counting ? "#define COUNTING\n" : "");
-    nook_bind_uniform(ao->gpu, 0, ao->frame);
-    nook_bind_storage(ao->gpu, AO_BINDING_COUNTER, ao->counter);
-    nook_result result = nook_program_compute(ao->gpu, path, all, &program);
+    nook_result result = prepare_pass(ao, path, defines, &program);
     if (result == NOOK_OK)
         nook_dispatch_indirect(ao->gpu, program, groups);
     return result;
