@@ -1,6 +1,7 @@
 #pragma once
 // Technique "volume", volumes of distances, sphere traced: docs/volume_kinds.md. All lengths of the walk are in voxels.
 #include "ao/volume_pass.glsl"
+#include "ao/walked_receiver.glsl"
 #include "ao/nearest_hit.glsl"
 
 const float RANGE = 255.0 / 32.0;     // that a byte holds: NOOK_DISTANCES_PER_VOXEL
@@ -16,22 +17,9 @@ const float SURFACE = 0.5591 + FILTER_PRECISION; // sqrt(MIN_STEP^2 / 4 + 1/4)
 // that does not: over few samples so flat a fall is no measure.
 const float FLATTEST = 0.4;
 
-// A fragment as one occluder's voxels see it.
-struct Receiver {
-    vec3 voxel;   // position
-    vec3 normal;  // unit, voxel space
-    bool can_see; // some ray can hit
-};
-
 Receiver receive(Occluder o, vec3 position, vec3 normal)
 {
-    Receiver r;
-    r.voxel = to_voxel(o, position);
-    r.normal = normalize(normal_to_voxel(o, normal));
-    // Highest point of the volume above the fragment's plane: below that there is nothing to hit.
-    float top = dot(r.normal, 0.5 * o.size.xyz - r.voxel) + dot(abs(r.normal), 0.5 * o.size.xyz - MARGIN);
-    r.can_see = is_near(o, r.voxel) && top > params.lift;
-    return r;
+    return receive_above(o, position, normal, MARGIN, params.lift);
 }
 
 // Where samples lie does not depend on the limit, so that the nearest of several volumes is the same in whatever order they come.

@@ -1,24 +1,12 @@
 #pragma once
 // Technique "volume", surfel volumes: docs/surfel_bricks.md.
 #include "ao/volume_pass.glsl"
+#include "ao/walked_receiver.glsl"
 #include "ao/surfel.glsl"
-
-// A fragment as one occluder's voxels see it.
-struct Receiver {
-    vec3 voxel;  // position
-    vec3 normal; // unit, voxel space
-    bool can_see; // some ray can hit
-};
 
 Receiver receive(Occluder o, vec3 position, vec3 normal)
 {
-    Receiver r;
-    r.voxel = to_voxel(o, position);
-    r.normal = normalize(normal_to_voxel(o, normal));
-    // Highest point of the volume above the fragment's plane: below that there is nothing to hit.
-    float top = dot(r.normal, 0.5 * o.size.xyz - r.voxel) + dot(abs(r.normal), 0.5 * o.size.xyz);
-    r.can_see = is_near(o, r.voxel) && top > 0.0;
-    return r;
+    return receive_above(o, position, normal, 0.0, 0.0);
 }
 
 Passage walk_volume(Occluder o, Receiver r, vec3 d, float limit)
