@@ -81,6 +81,22 @@ nook_result nook_param_parse(const nook_param *param, const char *owner, void *b
     return nook_param_set(param, owner, block, value);
 }
 
+nook_result nook_param_assign(const nook_param *table, size_t count, const char *where, const char *owner, void *block,
+                              const char *name, const char *text)
+{
+    char whole[512], names[256] = "";
+    const size_t length = strlen(owner);
+    size_t used = 0;
+    const char *own = strncmp(name, owner, length) == 0 && name[length] == '.' ? name + length + 1 : name;
+    const nook_param *param = nook_param_find(table, count, own);
+    snprintf(whole, sizeof whole, "%s: %s", where, owner);
+    if (param)
+        return nook_param_parse(param, whole, block, text);
+    for (size_t i = 0; i < count && used < sizeof names; i++)
+        used += (size_t)snprintf(names + used, sizeof names - used, "%s%s.%s", i ? ", " : "", owner, table[i].name);
+    return nook_fail(NOOK_E_NOT_FOUND, "%s has no parameter %s; there are %s", whole, own, names);
+}
+
 double nook_param_get(const nook_param *param, const void *block)
 {
     const char *field = (const char *)block + param->offset;

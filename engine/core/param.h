@@ -45,6 +45,15 @@ nook_result nook_param_set(const nook_param *param, const char *owner, void *blo
 /** The same from text: a number, or a choice by name. @return NOOK_E_ARG not a number or not a choice; NOOK_E_RANGE */
 nook_result nook_param_parse(const nook_param *param, const char *owner, void *block, const char *text);
 
+/**
+ * Sets the row that is named, from text.
+ * @param where  names the source in the message
+ * @param owner  of the table, as "plan"; the name may begin with it: "plan.error" is "error"
+ * @return NOOK_E_NOT_FOUND (the line lists the names), NOOK_E_ARG, NOOK_E_RANGE; the block stays as it was then
+ */
+nook_result nook_param_assign(const nook_param *table, size_t count, const char *where, const char *owner, void *block,
+                              const char *name, const char *text);
+
 double nook_param_get(const nook_param *param, const void *block);
 /** The value as text: a number, or the name of the choice. @return out */
 const char *nook_param_print(const nook_param *param, const void *block, char *out, size_t capacity);

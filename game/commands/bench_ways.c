@@ -1,14 +1,9 @@
 #include "game/commands/bench_ways.h"
-#include <stdbool.h>
 #include <stdio.h>
-#include <string.h>
 
-static bool has_param(const nook_ao_technique *technique, const char *name)
+static const nook_param *find(const nook_ao_technique *technique, const char *name)
 {
-    bool has = false;
-    for (uint32_t i = 0; i < technique->param_count; i++)
-        has = has || strcmp(technique->params[i].name, name) == 0;
-    return has;
+    return nook_param_find(technique->params, technique->param_count, name);
 }
 
 size_t nook_bench_ways(const nook_ao_technique *technique, const nook_bench_way **out_ways)
@@ -17,7 +12,7 @@ size_t nook_bench_ways(const nook_ao_technique *technique, const nook_bench_way 
                                                                 { "product", "multiply", "compute" },
                                                                 { "raster", "multiply", "raster" } },
                                 alone[1] = { { "ms", NULL, NULL } };
-    const bool joins = has_param(technique, "combine") && has_param(technique, "path");
+    const bool joins = find(technique, "combine") && find(technique, "path");
     *out_ways = joins ? joined : alone;
     return joins ? NOOK_COUNT(joined) : NOOK_COUNT(alone);
 }

@@ -1,6 +1,4 @@
 #include "modules/plan/plan_params.h"
-#include "engine/core/log.h"
-#include <stdio.h>
 #include <string.h>
 
 const nook_param *nook_plan_param_table(size_t *out_count)
@@ -16,25 +14,8 @@ nook_plan_params nook_plan_params_initial(void)
     return params;
 }
 
-static nook_result refuse(const char *where, const char *name)
-{
-    char names[256] = "";
-    size_t used = 0;
-    for (size_t i = 0; i < NOOK_COUNT(nook_plan_rows) && used < sizeof names; i++)
-        used += (size_t)snprintf(names + used, sizeof names - used, "%splan.%s", i ? ", " : "", nook_plan_rows[i].name);
-    return nook_fail(NOOK_E_NOT_FOUND, "%s: the plan has no parameter %s; there are %s", where, name, names);
-}
-
 nook_result nook_plan_params_assign(const char *where, nook_plan_params *params, const char *name, const char *text)
 {
-    static const char prefix[] = "plan.";
-    char owner[512];
-    const char *own = strcmp(name, "plan") == 0                       ? "mode"
-                      : strncmp(name, prefix, sizeof prefix - 1) == 0 ? name + sizeof prefix - 1
-                                                                      : name;
-    const nook_param *param = nook_param_find(nook_plan_rows, NOOK_COUNT(nook_plan_rows), own);
-    if (!param)
-        return refuse(where, name);
-    snprintf(owner, sizeof owner, "%s: plan", where);
-    return nook_param_parse(param, owner, params, text);
+    const char *own = strcmp(name, "plan") == 0 ? "mode" : name;
+    return nook_param_assign(nook_plan_rows, NOOK_COUNT(nook_plan_rows), where, "plan", params, own, text);
 }

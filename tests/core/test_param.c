@@ -152,6 +152,37 @@ static void test_param_parse_refuses_what_is_neither(void **state)
     check_parse_refused("falloff", "", NOOK_E_ARG);
 }
 
+static void test_param_assign_takes_names_with_and_without_their_owner(void **state)
+{
+    (void)state;
+    sample_params params = initial_params();
+    assert_int_equal(nook_param_assign(sample_table, ROWS, "a.txt:3", "ssao", &params, "ssao.samples", "32"), NOOK_OK);
+    assert_int_equal(nook_param_assign(sample_table, ROWS, "a.txt:4", "ssao", &params, "falloff", "wendland"), NOOK_OK);
+    assert_int_equal(params.samples, 32);
+    assert_int_equal(params.falloff, 2);
+}
+
+static void check_assign_refused(const char *name, const char *text, nook_result expected, const char *why)
+{
+    sample_params params = initial_params();
+    const sample_params before = params;
+    int lines = logged.count;
+    assert_int_equal(nook_param_assign(sample_table, ROWS, "a.txt:3", "ssao", &params, name, text), expected);
+    assert_memory_equal(&params, &before, sizeof params);
+    assert_int_equal(logged.count, lines + 1);
+    if (!strstr(logged.text, why))
+        fail_msg("expected '%s' in: %s", why, logged.text);
+}
+
+static void test_param_assign_says_where_what_is_wrong_and_which_names_there_are(void **state)
+{
+    (void)state;
+    check_assign_refused("ssao.sample", "32", NOOK_E_NOT_FOUND,
+                         "a.txt:3: ssao has no parameter sample; there are ssao.");
+    check_assign_refused("hbao.samples", "32", NOOK_E_NOT_FOUND, "ssao has no parameter hbao.samples");
+    check_assign_refused("samples", "many", NOOK_E_ARG, "a.txt:3: ssao.samples = many: not a number");
+}
+
 static void test_param_print_writes_what_parse_reads(void **state)
 {
     (void)state;
@@ -180,6 +211,8 @@ int main(void)
         cmocka_unit_test(test_param_set_says_owner_name_value_and_range),
         cmocka_unit_test(test_param_parse_reads_numbers_and_names_of_choices),
         cmocka_unit_test(test_param_parse_refuses_what_is_neither),
+        cmocka_unit_test(test_param_assign_takes_names_with_and_without_their_owner),
+        cmocka_unit_test(test_param_assign_says_where_what_is_wrong_and_which_names_there_are),
         cmocka_unit_test(test_param_print_writes_what_parse_reads),
     };
     return cmocka_run_group_tests(tests, begin, end);
