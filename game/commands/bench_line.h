@@ -3,10 +3,9 @@
 #include <stddef.h>
 
 typedef struct nook_bench_line {
-    double start, slope; /**< y = start + slope x, least squares. */
-    double residual;     /**< RMS of what the points are off it, as a part of their mean; 0: they lie on it. */
-    double
-        determination; /**< R^2: the part of the points' variance that the line accounts for; 1 where there is none. */
+    double start, slope;  /**< y = start + slope x, least squares. */
+    double residual;      /**< RMS of what the points are off it, as a part of their mean; 0: they lie on it. */
+    double determination; /**< R^2: the part of the points' variance that the line has; 1 where there is none. */
 } nook_bench_line;
 
 /** @param count  at least 2 points, not all at the same x @param y  positive mean */

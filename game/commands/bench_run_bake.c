@@ -1,6 +1,8 @@
 /* What baking surfels costs at each resolution: processor time, memory beyond the triangles, and again after one vertex was moved. */
+#include "engine/core/angle.h"
 #include "engine/core/clock.h"
 #include "engine/core/log.h"
+#include "engine/core/process.h"
 #include "game/commands/benches.h"
 #include "game/option_rows.h"
 #include "game/volumes.h"
@@ -9,11 +11,9 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 enum { LEVELS = 4, MIB = 1 << 20 };
 static const uint32_t levels[LEVELS] = { 64, 128, 256, 512 };
-static const double pi = 3.14159265358979323846;
 
 typedef struct bake_options {
     const char *scene; /* NULL: a ball made by code */
@@ -48,7 +48,7 @@ static nook_result make_ball(int32_t triangles, bake_mesh *out)
         return nook_fail(NOOK_E_MEMORY, "bench: no memory for %d triangles", triangles);
     }
     for (uint32_t i = 0; i < mesh.vertex_count; i++) {
-        double down = pi * (i / row) / rings, around = 2.0 * pi * (i % row % sides) / sides;
+        double down = NOOK_PI * (i / row) / rings, around = 2.0 * NOOK_PI * (i % row % sides) / sides;
         double radius = 1.0 + 0.03 * sin(23.0 * down) * cos(17.0 * around) * sin(down);
         mesh.positions[3 * (size_t)i] = (float)(radius * sin(down) * cos(around));
         mesh.positions[3 * (size_t)i + 1] = (float)(radius * sin(down) * sin(around));
@@ -109,15 +109,11 @@ static double peak_mib(void)
     return getrusage(RUSAGE_SELF, &usage) == 0 ? (double)usage.ru_maxrss * 1024.0 / MIB : NAN;
 }
 
-/* What it has now: /proc/self/statm, in pages. */
+/* What it has now. */
 static double resident_mib(void)
 {
-    long pages = 0, resident = 0;
-    FILE *file = fopen("/proc/self/statm", "r");
-    int read = file ? fscanf(file, "%ld %ld", &pages, &resident) : 0;
-    if (file)
-        fclose(file);
-    return read == 2 ? (double)resident * (double)sysconf(_SC_PAGESIZE) / MIB : NAN;
+    nook_process process;
+    return nook_process_read(&process) == NOOK_OK ? (double)process.resident / MIB : NAN;
 }
 
 static bool same_surfels(const nook_volume *a, const nook_volume *b)

@@ -203,9 +203,7 @@ static bool read_options(const nook_app *app, int argc, char **argv, cost_option
     const nook_option options[] = {
         nook_option_row_int("frames", &out->frames, 1, FRAMES_MAX,
                             "timed of each row, after one to warm up; default 5"),
-        nook_option_row_flag(
-            "cpu", &out->cpu,
-            "time that all threads have computed, which a busy machine stretches less; software GL only"),
+        nook_option_row_cpu(&out->cpu),
     };
     const nook_usage usage = {
         .command = "bench cost",

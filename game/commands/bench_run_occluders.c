@@ -137,8 +137,7 @@ static nook_result time_way(occluders_bench *b, const nook_bench_way *way, doubl
         if (i >= 0)
             b->ms[i] = clock() - start;
     }
-    nook_order_numbers(b->ms, (size_t)b->options->frames);
-    *out_ms = b->ms[b->options->frames / 2];
+    *out_ms = nook_median(b->ms, (size_t)b->options->frames);
     return result;
 }
 

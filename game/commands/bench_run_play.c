@@ -28,7 +28,7 @@ typedef struct play_options {
 /* How long the frames took, in their order. */
 typedef struct frame_times {
     double *ms;
-    size_t count, capacity;
+    size_t count, most;
 } frame_times;
 
 static bool read_options(const nook_app *app, int argc, char **argv, play_options *out, int *out_exit_code)
@@ -65,18 +65,14 @@ static bool read_options(const nook_app *app, int argc, char **argv, play_option
     return true;
 }
 
-static nook_result append(frame_times *times, double ms)
+/* Room for all that the replay has: each frame takes a tick of it at least. */
+static nook_result make_room(const nook_recording *replay, const play_options *options, frame_times *out)
 {
-    if (times->count == times->capacity) {
-        size_t capacity = times->capacity ? 2 * times->capacity : 4096;
-        double *larger = realloc(times->ms, capacity * sizeof *larger);
-        if (!larger)
-            return nook_fail(NOOK_E_MEMORY, "bench play: no memory for the times of %zu frames", capacity);
-        times->ms = larger;
-        times->capacity = capacity;
-    }
-    times->ms[times->count++] = ms;
-    return NOOK_OK;
+    *out = (frame_times){ .most = replay->tick_count };
+    if (options->frames > 0 && (size_t)options->frames < out->most)
+        out->most = (size_t)options->frames;
+    out->ms = malloc((out->most + 1) * sizeof *out->ms);
+    return out->ms ? NOOK_OK : nook_fail(NOOK_E_MEMORY, "bench play: no memory for the times of %zu frames", out->most);
 }
 
 static nook_result time_frames(nook_play_window *window, const play_options *options, frame_times *out)
@@ -84,14 +80,12 @@ static nook_result time_frames(nook_play_window *window, const play_options *opt
     double (*clock)(void) = options->cpu ? nook_clock_cpu_ms : nook_clock_ms;
     nook_result result = NOOK_OK;
     bool goes_on = true;
-    for (int64_t i = -WARM; result == NOOK_OK && goes_on && !nook_interrupt_asked(); i++) {
-        if (options->frames > 0 && i >= options->frames)
-            break;
+    for (int64_t i = -WARM; result == NOOK_OK && goes_on && out->count < out->most && !nook_interrupt_asked(); i++) {
         double start = clock();
         result = nook_play_window_frame(window, &goes_on);
         nook_gpu_finish(window->stage.gpu);
         if (result == NOOK_OK && i >= 0)
-            result = append(out, clock() - start);
+            out->ms[out->count++] = clock() - start;
     }
     return result;
 }
@@ -133,13 +127,16 @@ static void print_times(frame_times *times, double from, bool cpu)
 static nook_result run(nook_play_window *window, const play_options *options)
 {
     char setting[NOOK_SETTING_TEXT_MAX];
-    frame_times times = { 0 };
+    frame_times times;
+    nook_result result = make_room(&window->play.replay, options, &times);
+    if (result != NOOK_OK)
+        return result;
     printf("%s, %u x %u, %s, r_max %.3g m, %s\nmilliseconds of %s a frame\n\n", options->replay, window->stage.width,
            window->stage.height, window->stage.gpu->renderer, window->stage.volumes.r_max,
            nook_setting_print(&window->settings.setting, setting), options->cpu ? "all threads together" : "wall time");
     fflush(stdout);
     nook_interrupt_hold();
-    nook_result result = time_frames(window, options, &times);
+    result = time_frames(window, options, &times);
     nook_interrupt_release();
     if (result == NOOK_OK && times.count == 0)
         result = nook_fail(NOOK_E_ARG, "bench play: %s is over before the first frame that would be timed; --from less",

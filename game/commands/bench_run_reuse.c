@@ -1,4 +1,5 @@
 /* What ao.reuse saves and what it costs while the camera moves: on the scene's cameras, standing, walking straight ahead and turning. */
+#include "engine/core/angle.h"
 #include "engine/core/clock.h"
 #include "engine/core/order.h"
 #include "engine/core/vector.h"
@@ -16,7 +17,8 @@
 
 enum { FRAMES_MAX = 256, JUDGED = 4 /* frames at the end whose pictures are measured */, WARM = 4 };
 
-static const double WALK = 1.4, TURN = 90.0, RATE = 20.0; /* metres and degrees a second, frames a second */
+static const double walk_speed = 1.4, turn_speed = 90.0; /* metres and degrees a second */
+static const double frame_rate = 20.0;                   /* frames a second */
 static const int32_t periods[] = { 1, 2, 3, 4 };
 
 typedef enum motion { MOTION_STAND, MOTION_WALK, MOTION_TURN, MOTION_COUNT } motion;
@@ -72,10 +74,10 @@ static nook_camera camera_after(const nook_camera *start, motion how, int32_t fr
     const double *m = world_from_view.m;
     nook_matrix move;
     if (how == MOTION_WALK) {
-        double way = -WALK / RATE * frames / hypot(m[8], m[10]);
+        double way = -walk_speed * frames / frame_rate / hypot(m[8], m[10]);
         move = nook_matrix_translation(-way * m[8], 0.0, -way * m[10]);
     } else {
-        double half = 0.5 * TURN / RATE * frames * 0.017453292519943295;
+        double half = 0.5 * turn_speed * NOOK_DEGREE * frames / frame_rate;
         const double none[3] = { 0, 0, 0 }, one[3] = { 1, 1, 1 }, rotation[4] = { 0, sin(half), 0, cos(half) };
         nook_matrix turn = nook_matrix_compose(none, rotation, one);
         nook_matrix there = nook_matrix_translation(m[12], m[13], m[14]);
