@@ -5,17 +5,17 @@
 #include <string.h>
 
 static const nook_command benches[] = {
-    { "character", "what meshes that bend cost in each frame: posed, voxelised", nook_bench_run_character },
-    { "ecs", "create, change, walk and destroy entities", nook_bench_run_ecs },
     { "frame", "where the milliseconds of a frame go, with bodies that move", nook_bench_run_frame },
+    { "play", "every frame of a recorded game, as it is played", nook_bench_run_play },
     { "cost", "occlusion by the number of pixels, by its reach and by the size of the volumes", nook_bench_run_cost },
     { "occluders", "occlusion by 1 to 4096 volumes, apart and piled up, and by one that holds them all",
       nook_bench_run_occluders },
-    { "reload", "how soon a saved shader is in the picture", nook_bench_run_reload },
     { "reuse", "what ao.reuse saves and costs while the camera walks and turns", nook_bench_run_reuse },
+    { "character", "what meshes that bend cost in each frame: posed, voxelised", nook_bench_run_character },
     { "physics", "a step of a level's rigid bodies: asleep, awake, thrown about; rays", nook_bench_run_physics },
+    { "ecs", "create, change, walk and destroy entities", nook_bench_run_ecs },
     { "bake", "surfels of up to 100 million triangles at four resolutions, and after an edit", nook_bench_run_bake },
-    { "play", "every frame of a recorded game, as it is played", nook_bench_run_play },
+    { "reload", "how soon a saved shader is in the picture", nook_bench_run_reload },
 };
 
 static void print_usage(FILE *stream)
