@@ -18,6 +18,7 @@ static void set_up(nook_live *live, const nook_live_desc *desc)
     live->shaders_reload = desc->shaders_reload;
     live->hovered = live->held = NOOK_LIVE_SPLITS_MAX;
     live->scale = 1.0;
+    live->multiplies = nook_game_world_multiplies(desc->stage->ao);
     copy_text(live->settings_path, sizeof live->settings_path, desc->settings_path, "nook.settings");
     copy_text(live->pictures, sizeof live->pictures, desc->pictures, ".");
     copy_text(live->notes, sizeof live->notes, desc->notes, "");
@@ -113,6 +114,11 @@ uint32_t nook_live_active_technique(const nook_live *live)
     const nook_live_view *view = &live->views.views[live->views.active];
     uint32_t number = view->open ? LIVE_TECHNIQUES : live_technique_number(live, view->setting);
     return number < LIVE_TECHNIQUES ? number + 1 : 0;
+}
+
+bool nook_live_multiplies(const nook_live *live)
+{
+    return live->multiplies;
 }
 
 void nook_live_redraw(nook_live *live)

@@ -148,7 +148,8 @@ nook_settings_file live_settings_of_active(nook_live *live)
 {
     nook_settings_file file = { .setting = live_setting_of(live, live->views.active),
                                 .r_max = live->views.r_max,
-                                .plan = live->stage->plan };
+                                .plan = live->stage->plan,
+                                .live = live->stage->live_scene };
     print_falloff(live, file.falloff, sizeof file.falloff);
     return file;
 }

@@ -79,7 +79,9 @@ static void *run(void *user)
     load->result = read_scene(load);
     if (load->result == NOOK_OK)
         load->result = check_images(load);
-    if (load->result == NOOK_OK) {
+    if (load->result == NOOK_OK && load->desc.live) {
+        load->result = nook_volumes_collect(load->loaded.scene, &volumes, &load->loaded.volumes);
+    } else if (load->result == NOOK_OK) {
         volumes.before = collect_shown(load, &volumes, &shown);
         load->result = nook_volumes_bake(load->loaded.scene, &volumes, &load->loaded.volumes);
         nook_volumes_free(&shown);

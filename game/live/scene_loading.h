@@ -20,6 +20,7 @@ typedef struct nook_scene_loading_desc {
     /** The scene that is shown: surfels are made anew only where meshes differ from its. Constant until the load is finished; NULL: none. */
     const nook_scene *shown;
     nook_volumes_plan plan;   /**< Zero: nothing is planned. */
+    bool live;                /**< As nook_stage.live_scene: nothing is planned or baked. */
     uint32_t unreadable_most; /**< Images that may be unreadable: those that are so in the scene that is shown. */
 } nook_scene_loading_desc;
 

@@ -23,6 +23,7 @@ struct nook_scene_reload {
     bool is_level;
     char level[PATH_CAPACITY], cache[PATH_CAPACITY];
     nook_game_world_desc volumes;
+    bool multiplies; /* as the volumes are planned */
     file_list files, folders;
     nook_file_watch *watch;   /* of the folders */
     nook_scene_loading *load; /* NULL: nothing is under way */
@@ -164,6 +165,7 @@ nook_result nook_scene_reload_create(nook_stage *stage, const char *level, nook_
     snprintf(self->cache, sizeof self->cache, "%s", cache ? cache : "");
     self->volumes = stage->volumes;
     self->volumes.cache = cache ? self->cache : NULL;
+    self->multiplies = nook_game_world_multiplies(stage->ao);
     self->status.error = self->error;
     nook_result result = watch_files(self);
     if (result != NOOK_OK) {
@@ -214,6 +216,17 @@ const nook_scene_reload_status *nook_scene_reload_status_of(const nook_scene_rel
 
 /* ---- frames -------------------------------------------------------------------------------------------------------- */
 
+void nook_scene_reload_plan_for(nook_scene_reload *self, bool multiplies)
+{
+    if (self->multiplies == multiplies)
+        return;
+    self->multiplies = multiplies;
+    if (self->stage->plan.mode != NOOK_PLAN_MEASURED || self->stage->live_scene)
+        return; /* what is proven holds for both */
+    self->changed = true;
+    self->changed_ms = nook_clock_ms();
+}
+
 static void start_load(nook_scene_reload *self)
 {
     const nook_scene_loading_desc desc = { .path = self->is_level ? self->level : self->stage->scene->path,
@@ -224,8 +237,8 @@ static void start_load(nook_scene_reload *self)
                                            .kinds = nook_game_world_kinds(self->stage->world),
                                            .cache = self->volumes.cache,
                                            .shown = self->stage->scene,
-                                           .plan = { self->stage->plan, self->stage->plays,
-                                                     nook_game_world_multiplies(self->stage->ao) },
+                                           .plan = { self->stage->plan, self->stage->plays, self->multiplies },
+                                           .live = self->stage->live_scene,
                                            .unreadable_most = nook_scene_unreadable_images(self->stage->scene) };
     nook_loaded_scene_free(&self->waiting);
     self->changed = false;

@@ -23,9 +23,12 @@ void nook_play_unwatch(nook_play_window *w)
     w->shaders = NULL;
 }
 
-/* The active view shows the setting; reach and falloff are of all views. Volumes keep their resolution until the next start. */
+/* The active view shows the setting; reach and falloff are of all views. Volumes keep their resolution until the next start, and are
+   baked, planned or live as they were. */
 static void use_settings(nook_play_window *w, const nook_settings_file *file)
 {
+    if (file->live != w->stage.live_scene || memcmp(&file->plan, &w->stage.plan, sizeof file->plan) != 0)
+        nook_log_warning("play: %s: plan and volumes are taken over with the next start", w->settings_path);
     nook_live_views *views = nook_live_state(w->live);
     char text[NOOK_SETTING_TEXT_MAX] = "";
     double falloff;
@@ -47,6 +50,7 @@ static nook_result go_on(void *game, nook_level *level, const nook_scene *scene,
 
 static void take_scene(nook_play_window *w)
 {
+    nook_scene_reload_plan_for(w->scenes, nook_live_multiplies(w->live));
     if (nook_scene_reload_poll(w->scenes)) {
         nook_live_suspend(w->live); /* its truth reads the triangles of the old one */
         nook_scene_reload_swap(w->scenes, go_on, &w->play);

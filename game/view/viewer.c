@@ -235,6 +235,8 @@ static void reload(viewer *v)
 {
     if (v->shaders && nook_shader_reload_poll(v->shaders))
         nook_live_suspend(v->live); /* what it holds was drawn by the old ones */
+    if (v->scenes)
+        nook_scene_reload_plan_for(v->scenes, nook_live_multiplies(v->live));
     if (v->scenes && nook_scene_reload_poll(v->scenes)) {
         nook_live_suspend(v->live); /* the truth reads its meshes */
         nook_scene_reload_swap(v->scenes, NULL, NULL);

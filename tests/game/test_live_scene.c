@@ -64,7 +64,7 @@ static double record(fixture *f)
     return sum / PIXELS;
 }
 
-/* Lifts the first body that moves. @return its name's node */
+/* Lifts the first body that moves. */
 static void lift(fixture *f, double by)
 {
     nook_stage *stage = &f->stage;

@@ -18,6 +18,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
+#include <unistd.h>
 
 #include <cmocka.h> /* wants those above first */
 
@@ -365,9 +366,26 @@ static void test_destroying_waits_for_the_background(void **state)
     reload(self, NULL); /* it begins again */
 }
 
+static void test_a_scene_with_a_live_volume_is_reloaded_without_a_bake(void **state)
+{
+    fixture *self = *state;
+    picture before, after;
+    self->stage.live_scene = true;
+    assert_int_equal(nook_stage_fill(&self->stage, &(nook_game_world_desc){ 16, 0.5, self->cache }), NOOK_OK);
+    draw(self, NOOK_VIEW_VISIBILITY, before);
+    file_tree_remove(&self->tree, "cache");
+    write_colour(self, 0, 255, 0);
+    reload(self, NULL);
+    assert_int_not_equal(access(self->cache, F_OK), 0);
+    assert_true(nook_game_world_live_scene(self->stage.world)->volume.id > 0);
+    draw(self, NOOK_VIEW_VISIBILITY, after);
+    assert_true(same(before, after));
+}
+
 /* ---- played -------------------------------------------------------------------------------------------------------- */
 
 #define CRATES PLAY_BOX("crate_0", 0, 0.2, -2, 0.4, 0.4, 0.4, PLAY_BODY(15))
+#define STILL ", 'extras': { 'nook_body': false }"
 #define MORE_CRATES CRATES PLAY_BOX("crate_1", 1, 0.2, -2, 0.4, 0.4, 0.4, PLAY_BODY(15))
 
 typedef struct played {
@@ -480,6 +498,37 @@ static void test_more_bodies_than_there_is_room_for_are_refused(void **state)
     assert_false(nook_scene_reload_poll(self->f.reload)); /* not tried again until it changes */
 }
 
+static uint32_t count_volumes(const played *self)
+{
+    uint32_t count;
+    nook_game_world_volumes(self->f.stage.world, &count);
+    return count;
+}
+
+/* A post in a corner of the floor: apart, both have less air in their volumes. */
+static void test_volumes_are_planned_anew_when_their_visibilities_are_joined_otherwise(void **state)
+{
+    played *self = *state;
+    self->f.stage.plan = nook_plan_params_initial();
+    self->f.stage.plan.mode = NOOK_PLAN_MEASURED;
+    self->f.stage.plan.split = 0.0f;
+    nook_scene_reload_plan_for(self->f.reload, true);
+    play_room_write_scene("played.glb", CRATES PLAY_BOX("post", 15, 5, 15, 0.5, 10, 0.5, STILL));
+    reload(&self->f, &self->play);
+    uint32_t together = count_volumes(self);
+    nook_scene_reload_plan_for(self->f.reload, false);
+    reload(&self->f, &self->play);
+    assert_true(count_volumes(self) > together);
+    nook_scene_reload_plan_for(self->f.reload, true);
+    reload(&self->f, &self->play);
+    assert_int_equal(count_volumes(self), together);
+    nook_scene_reload_plan_for(self->f.reload, true);
+    assert_false(nook_scene_reload_poll(self->f.reload) || nook_scene_reload_status_of(self->f.reload)->loading);
+    self->f.stage.plan.mode = NOOK_PLAN_ON; /* what is proven holds for both */
+    nook_scene_reload_plan_for(self->f.reload, false);
+    assert_false(nook_scene_reload_poll(self->f.reload) || nook_scene_reload_status_of(self->f.reload)->loading);
+}
+
 int main(void)
 {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, setup, teardown)
@@ -495,10 +544,12 @@ int main(void)
         TEST(test_saves_in_a_row_leak_nothing),
         TEST(test_a_thousand_exchanges_leak_nothing),
         TEST(test_destroying_waits_for_the_background),
+        TEST(test_a_scene_with_a_live_volume_is_reloaded_without_a_bake),
         PLAYED(test_a_game_goes_on_in_a_changed_model),
         PLAYED(test_a_game_goes_on_in_a_changed_level),
         PLAYED(test_a_level_that_is_wrong_is_refused_and_the_old_one_goes_on),
         PLAYED(test_more_bodies_than_there_is_room_for_are_refused),
+        PLAYED(test_volumes_are_planned_anew_when_their_visibilities_are_joined_otherwise),
     };
     return cmocka_run_group_tests_name("scenes reloaded in a stage", tests, NULL, NULL);
 }

@@ -51,8 +51,11 @@ static void test_saved_settings_read_back(void **state)
     live_room_set(room, 0, "gtao slices=3 ao.scale=quarter");
     nook_live_state(room->live)->falloff = 2.0;
     live_room_step(room);
+    room->stage.live_scene = true; /* as if it had been filled so */
     assert_int_equal(live_save(room->live), NOOK_OK);
+    room->stage.live_scene = false;
     assert_int_equal(nook_settings_file_read(room->settings, &file), NOOK_OK);
+    assert_true(file.live);
     char setting[NOOK_SETTING_TEXT_MAX];
     assert_string_equal(nook_setting_print(&file.setting, setting), "gtao slices=3 ao.scale=quarter");
     assert_string_equal(file.falloff, "quadratic");
