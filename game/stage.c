@@ -146,6 +146,8 @@ static nook_result fill_live(nook_stage *stage)
         return nook_fail(NOOK_E_ARG,
                          "%s: live volumes hold binary voxels; take volume.kind = binary, or volumes = baked",
                          stage->scene->path);
+    if (stage->plan.mode != NOOK_PLAN_OFF)
+        nook_log_warning("%s: its volumes are live, so that nothing is planned", stage->scene->path);
     nook_result result = nook_volumes_collect(stage->scene, &desc, &collected);
     return result == NOOK_OK ? nook_game_world_take_volumes(stage->world, stage->ao, &collected, live_resolution(stage))
                              : result;

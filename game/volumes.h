@@ -65,7 +65,7 @@ typedef struct nook_volumes_part {
 typedef struct nook_volumes_plan {
     nook_plan_params params; /**< Zero: nothing. */
     bool moves;              /**< Bodies will not stay where they stand. */
-    bool multiplies;         /**< nook_game_world_multiplies. */
+    bool multiplies;         /**< nook_setting_multiplies. */
 } nook_volumes_plan;
 
 /** Owns all it points to. */

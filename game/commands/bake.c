@@ -24,9 +24,9 @@ static void describe(bake_help *out)
         "The resolution of a body follows from r_max: its voxels are r_max / %d, but it has at least %u along its\n"
         "longest side and at most half of --resolution. All that stands still shares one volume of --resolution.\n"
         "Compare, play and the others bake the kinds that they march by themselves, when they do.\n"
-        "Instances share a bake. Blended (glass-like) materials are in densities and surfels only. Files are named by "
-        "content: a second\n"
-        "bake finds them; when they cannot be written, bake fails. Format: docs/volume_format.md.\n",
+        "Instances share a bake. Blended (glass-like) materials are in densities and surfels only. Files are named\n"
+        "by content: a second bake finds them; when they cannot be written, bake fails. Format: "
+        "docs/volume_format.md.\n",
         NOOK_VOLUMES_VOXELS_PER_R_MAX, NOOK_VOLUMES_BODY_RESOLUTION_MIN);
 }
 

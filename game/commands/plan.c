@@ -17,7 +17,7 @@ typedef struct plan_request {
     nook_option_size size;
     int32_t resolution, mode, rays;
     double r_max, error, level_error, memory, split;
-    bool plays;
+    bool plays, multiplies;
 } plan_request;
 
 static const nook_param *row_of(const char *name)
@@ -27,19 +27,29 @@ static const nook_param *row_of(const char *name)
     return nook_param_find(rows, count, name);
 }
 
-static nook_option number_row(const char *option, const char *name, double *target)
+typedef char help_text[128];
+
+static const char *print_help(const char *name, help_text out)
+{
+    const nook_param *row = row_of(name);
+    snprintf(out, sizeof(help_text), "%s; default %g", row->help, row->initial);
+    return out;
+}
+
+static nook_option number_row(const char *option, const char *name, double *target, help_text help)
 {
     const nook_param *row = row_of(name);
     return (nook_option){ .name = option,
                           .kind = NOOK_OPTION_NUMBER,
                           .target = target,
                           .placeholder = "X",
-                          .help = row->help,
+                          .help = print_help(name, help),
                           .lowest = row->lowest,
                           .highest = row->highest };
 }
 
 static const char details[] =
+    "SCENE: a .gltf, .glb or .level file.\n"
     "Applied by plan = on (what is proven) or plan = measured in a settings file, and by compare --plan.\n"
     "The rules, their bounds and how these are derived: docs/plan.md.\n";
 
@@ -48,26 +58,30 @@ static bool read_request(int argc, char **argv, plan_request *out, int *out_exit
     *out = (plan_request){
         .size = { 960, 540 }, .mode = -1, .rays = -1, .error = NAN, .level_error = NAN, .memory = NAN, .split = NAN
     };
+    help_text helps[6];
+    snprintf(helps[5], sizeof helps[5], "voxels along the longest side of what stands still without a plan; default %u",
+             NOOK_VOLUMES_RESOLUTION_DEFAULT);
     const nook_option options[] = {
-        nook_option_row_settings(&out->settings, "resolution, r_max and plan of a settings file; options count more"),
+        nook_option_row_settings(
+            &out->settings, "resolution, r_max, plan and how volumes combine, of a settings file; options count more"),
         { .name = "plan",
           .kind = NOOK_OPTION_CHOICE,
           .target = &out->mode,
           .placeholder = "MODE",
           .choices = row_of("mode")->choices,
           .help = "off, on: what is proven, or measured: also levels and static volumes; default measured" },
-        number_row("error", "error", &out->error),
-        number_row("level-error", "level_error", &out->level_error),
-        number_row("memory", "memory", &out->memory),
-        number_row("split", "split", &out->split),
+        number_row("error", "error", &out->error, helps[0]),
+        number_row("level-error", "level_error", &out->level_error, helps[1]),
+        number_row("memory", "memory", &out->memory, helps[2]),
+        number_row("split", "split", &out->split, helps[3]),
         nook_option_row_int("rays", &out->rays, (int32_t)row_of("rays")->lowest, (int32_t)row_of("rays")->highest,
-                            row_of("rays")->help),
+                            print_help("rays", helps[4])),
         nook_option_row_text(
             "camera", &out->camera, "NAME|p,t,fov",
             "plan for what this camera can see, as in compare; default: for all surfaces, from anywhere"),
         nook_option_row_size(&out->size, "of the pictures in pixels, with --camera; default 960x540"),
         nook_option_row_flag("plays", &out->plays, "bodies will not stay where they stand: distances prove nothing"),
-        nook_option_row_resolution(&out->resolution, "voxels along the longest side without a plan"),
+        nook_option_row_resolution(&out->resolution, helps[5]),
         nook_option_row_r_max(&out->r_max, nook_option_r_max_help),
     };
     const nook_usage usage = { .command = "plan",
@@ -94,6 +108,7 @@ static nook_result settle(plan_request *request, nook_plan_params *out)
     if (result != NOOK_OK)
         return result;
     *out = file.plan;
+    request->multiplies = request->settings && nook_setting_multiplies(&file.setting);
     if (request->resolution == 0)
         request->resolution = (int32_t)file.setting.resolution;
     if (request->r_max == 0.0)
@@ -146,6 +161,7 @@ static nook_result plan_scene(const nook_scene *scene, const plan_request *reque
 {
     const nook_volumes_desc desc = { .resolution = (uint32_t)request->resolution, .r_max = request->r_max };
     nook_plan_situation situation = { .moves = request->plays,
+                                      .multiplies = request->multiplies,
                                       .aspect = (double)request->size.width / request->size.height,
                                       .height = (uint32_t)request->size.height };
     nook_scene_volumes volumes;

@@ -116,11 +116,6 @@ uint32_t nook_live_active_technique(const nook_live *live)
     return number < LIVE_TECHNIQUES ? number + 1 : 0;
 }
 
-bool nook_live_multiplies(const nook_live *live)
-{
-    return live->multiplies;
-}
-
 void nook_live_redraw(nook_live *live)
 {
     live->stale = true;

@@ -91,8 +91,8 @@ double nook_live_ao_ms(const nook_live *live);
 const char *nook_live_active_setting(const nook_live *live);
 /** Its place among the techniques of the number keys, from 1; 0: none. */
 uint32_t nook_live_active_technique(const nook_live *live);
-/** Whether a view multiplies the visibilities of several volumes (nook_game_world_multiplies), when any that marches them was drawn last. */
-bool nook_live_multiplies(const nook_live *live);
+/** Whether a view multiplies the visibilities of several volumes (nook_setting_multiplies); as it was while none marches any. */
+bool nook_live_multiplies(nook_live *live);
 /** Something that a held or frozen picture is made with has changed: shaders, lights. */
 void nook_live_redraw(nook_live *live);
 /** Whether the next draw and present would show anything else than the last ones. */

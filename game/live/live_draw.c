@@ -67,10 +67,6 @@ static nook_result record_view(nook_live *live, uint32_t view, const nook_settin
     if (result == NOOK_OK)
         result = nook_ao_record(live->stage->ao, &frame);
     live_times_end(live, (live_pass)(LIVE_PASS_AO + view));
-    if (setting->technique->inputs & NOOK_AO_IN_VOLUMES) {
-        live->joining++;
-        live->multiplying += nook_game_world_multiplies(live->stage->ao);
-    }
     live->view_recorded = result == NOOK_OK;
     return result;
 }
@@ -107,11 +103,8 @@ static nook_result occlude_view(nook_live *live, uint32_t view)
 static nook_result occlude_views(nook_live *live)
 {
     nook_result result = NOOK_OK;
-    live->joining = live->multiplying = 0;
     for (uint32_t i = 0; i < live->views.count && result == NOOK_OK; i++)
         result = occlude_view(live, i);
-    if (live->joining > 0)
-        live->multiplies = live->multiplying > 0;
     return result;
 }
 

@@ -128,14 +128,13 @@ struct nook_live {
     bool stale;                       /**< Something other than `views` has changed since the picture was made. */
     nook_texture visibility[NOOK_LIVE_VIEWS_MAX]; /**< That the views show; id 0: all open. */
     double scales[NOOK_LIVE_VIEWS_MAX];           /**< ao.scale that it was recorded with. */
-    uint32_t joining, multiplying;      /**< Views of this frame that march volumes, and those of them that multiply. */
-    bool multiplies;                    /**< Some did when any was drawn last. */
-    uint32_t frame_width, frame_height; /**< Of the stage when the G-buffer was drawn; 0: never. */
-    nook_camera camera;                 /**< Of the G-buffer. */
-    bool picture_asked;                 /**< F12 was pressed. */
-    uint32_t picture_number;            /**< Of the last picture. */
-    nook_capture *capture;              /**< NULL: none. */
-    uint8_t *captured;                  /**< A picture of capture_size, RGB. Owned. */
+    bool multiplies;                              /**< Some view does, of those that march volumes. */
+    uint32_t frame_width, frame_height;           /**< Of the stage when the G-buffer was drawn; 0: never. */
+    nook_camera camera;                           /**< Of the G-buffer. */
+    bool picture_asked;                           /**< F12 was pressed. */
+    uint32_t picture_number;                      /**< Of the last picture. */
+    nook_capture *capture;                        /**< NULL: none. */
+    uint8_t *captured;                            /**< A picture of capture_size, RGB. Owned. */
     uint32_t capture_size[2];
     live_targets targets;
     live_truth truth;

@@ -120,6 +120,22 @@ void live_choose_technique(nook_live *live, uint32_t number)
     v->open = false;
 }
 
+bool nook_live_multiplies(nook_live *live)
+{
+    bool march = false, multiply = false;
+    for (uint32_t i = 0; i < live->views.count; i++) {
+        const nook_live_view *view = &live->views.views[i];
+        if (view->open || !nook_live_mode_occludes(view->mode))
+            continue;
+        const nook_setting setting = live_setting_of(live, i);
+        march = march || setting.technique->inputs & NOOK_AO_IN_VOLUMES;
+        multiply = multiply || nook_setting_multiplies(&setting);
+    }
+    if (march)
+        live->multiplies = multiply;
+    return live->multiplies;
+}
+
 nook_result live_apply(nook_live *live, const nook_setting *setting)
 {
     nook_result result = nook_setting_apply(live->stage->ao, setting);

@@ -28,7 +28,7 @@ void nook_scene_reload_destroy(
     nook_scene_reload *reload); /**< Waits for what runs in the background. NULL is allowed. */
 
 /**
- * Tells how the AO joins several volumes, as a plan must know (nook_game_world_multiplies); as they were planned until it is called.
+ * Tells how the AO joins several volumes, as a plan must know (nook_setting_multiplies); as they were planned until it is called.
  * Volumes that were planned for the other way are planned anew with the next poll, as after a file was saved.
  */
 void nook_scene_reload_plan_for(nook_scene_reload *reload, bool multiplies);

@@ -10,7 +10,7 @@ enum { NOOK_PLAN_SINES = 256 /* places of a table over the sine of a cone */ };
 /** What a plan is made for. Zero is what a scene that stands still is. */
 typedef struct nook_plan_situation {
     bool moves;                /**< Bodies will not stay where they stand. */
-    bool multiplies;           /**< nook_game_world_multiplies: several volumes are not joined exactly. */
+    bool multiplies;           /**< nook_setting_multiplies: several volumes are not joined exactly. */
     const nook_camera *camera; /**< Seen from there only; NULL: from anywhere. */
     double aspect;             /**< Width / height, with a camera. */
     uint32_t height;           /**< Pixels, with a camera. */

@@ -67,7 +67,9 @@ static size_t find_param(const nook_ao_technique *technique, const char *name)
 static nook_result refuse_param(const char *where, const nook_ao_technique *technique, const char *name)
 {
     char names[1024] = "resolution", known[NAME_MAX_BYTES], nearest[NAME_MAX_BYTES] = "";
-    nook_suggestion suggestion = nook_suggestion_for(name);
+    const size_t prefix = strlen(technique->name); /* "volume.rays", as --param takes it */
+    const bool prefixed = strncmp(name, technique->name, prefix) == 0 && name[prefix] == '.';
+    nook_suggestion suggestion = nook_suggestion_for(prefixed ? name + prefix + 1 : name);
     const nook_param *param;
     bool shared, volumes = technique->inputs & NOOK_AO_IN_VOLUMES;
     size_t used = volumes ? strlen(names) : 0;
@@ -298,6 +300,14 @@ double nook_setting_get(const nook_setting *setting, const nook_param *param)
             return setting->params[i].value;
     }
     return param->initial;
+}
+
+bool nook_setting_multiplies(const nook_setting *setting)
+{
+    const nook_ao_technique *technique = setting->technique;
+    const nook_param *combine = nook_param_find(technique->params, technique->param_count, "combine");
+    const nook_param *path = nook_param_find(technique->params, technique->param_count, "path");
+    return (combine && nook_setting_get(setting, combine) == 0.0) || (path && nook_setting_get(setting, path) != 0.0);
 }
 
 nook_result nook_setting_apply(nook_ao *ao, const nook_setting *setting)

@@ -58,6 +58,9 @@ const nook_param *nook_setting_param_at(const struct nook_ao_technique *techniqu
 /** The value of a row of the technique's or the shared table: what the setting says, else the initial one. */
 double nook_setting_get(const nook_setting *setting, const nook_param *param);
 
+/** Whether several volumes multiply their visibilities (volume.combine, volume.path), as a plan must know. */
+bool nook_setting_multiplies(const nook_setting *setting);
+
 /**
  * After code was loaded anew, while the old one is still there: points to the technique and the parameters that have the
  * same names now; those that are gone are left out, and values are brought into their range.

@@ -30,6 +30,13 @@ test_walls_of_the_demo_level_get_volumes_of_their_own() {
     awk -v a="$after" -v b="$before" 'BEGIN { exit !(a > 0 && a < 0.9 * b) }'
 }
 
+test_walls_share_one_volume_when_volumes_multiply() {
+    local said
+    printf 'technique = volume\ncombine = multiply\n' >"$tmp/multiply.settings"
+    said=$(plan "$hall" --settings "$tmp/multiply.settings")
+    assert_holds "$said" ' parts in 1 volumes'
+}
+
 test_a_camera_sees_no_body_behind_it() {
     assert_holds "$(plan "$crate" --camera 2,1.6,3,2,1.6,30,40 --plan on)" 'crate                         0.00000  no surface in reach'
     assert_holds "$(plan "$crate" --camera corner --plan on)" '0 bodies have no surface in their reach'

@@ -44,6 +44,22 @@ static void test_setting_that_cannot_be_read_any_more_becomes_its_technique(void
     assert_int_equal(log.count, 0); /* said once */
 }
 
+static void test_volumes_are_multiplied_while_any_view_of_them_does(void **state)
+{
+    live_room *room = *state;
+    nook_live_views_set_count(nook_live_state(room->live), 2);
+    live_room_set(room, 0, "volume");
+    live_room_set(room, 1, "gtao");
+    assert_false(nook_live_multiplies(room->live));
+    live_room_set(room, 1, "volume combine=multiply");
+    assert_true(nook_live_multiplies(room->live));
+    live_room_set(room, 0, "ssao");
+    live_room_set(room, 1, "gtao");
+    assert_true(nook_live_multiplies(room->live)); /* nobody marches them: as it was */
+    live_room_set(room, 0, "volume");
+    assert_false(nook_live_multiplies(room->live));
+}
+
 static void test_saved_settings_read_back(void **state)
 {
     live_room *room = *state;
@@ -73,6 +89,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         LIVE_ROOM_TEST(test_technique_that_is_chosen_again_has_the_parameters_it_had),
         LIVE_ROOM_TEST(test_setting_that_cannot_be_read_any_more_becomes_its_technique),
+        LIVE_ROOM_TEST(test_volumes_are_multiplied_while_any_view_of_them_does),
         LIVE_ROOM_TEST(test_saved_settings_read_back),
     };
     return cmocka_run_group_tests(tests, live_room_open, live_room_close);

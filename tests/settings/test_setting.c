@@ -172,6 +172,7 @@ static void test_misspelt_names_get_a_suggestion(void **state)
     must_refuse("volume resoluton=64", NOOK_E_NOT_FOUND, "did you mean resolution?");
     must_refuse("volume ao.scael=half", NOOK_E_NOT_FOUND, "did you mean ao.scale?");
     must_refuse("volume scale=half", NOOK_E_NOT_FOUND, "did you mean ao.scale?");
+    must_refuse("volume volume.rays=4", NOOK_E_NOT_FOUND, "did you mean rays?"); /* as --param takes it */
     must_refuse("magic", NOOK_E_NOT_FOUND, "choose from volume");
     must_refuse("ssao wonders=4", NOOK_E_NOT_FOUND, "there are samples");
 }
@@ -193,6 +194,23 @@ static void test_wrong_values_are_refused(void **state)
     must_refuse("volume resolution=0", NOOK_E_RANGE, "resolution");
     must_refuse("volume resolution=100000", NOOK_E_RANGE, "resolution");
     must_refuse("volume rays=4 rays=8", NOOK_E_ARG, "twice");
+}
+
+static void test_volumes_multiply_by_their_product_and_where_they_are_drawn(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        bool multiplies;
+    } settings[] = { { "volume", false },
+                     { "volume combine=multiply", true },
+                     { "volume path=raster", true },
+                     { "volume combine=union rays=3", false },
+                     { "gtao", false } };
+    for (size_t i = 0; i < NOOK_COUNT(settings); i++) {
+        nook_setting setting = must_parse(settings[i].text);
+        assert_true(nook_setting_multiplies(&setting) == settings[i].multiplies);
+    }
 }
 
 static void test_what_is_computed_is_no_part_of_a_setting(void **state)
@@ -282,6 +300,7 @@ int main(void)
         cmocka_unit_test(test_all_parameters_at_once_fit),
         cmocka_unit_test(test_misspelt_names_get_a_suggestion),
         cmocka_unit_test(test_wrong_values_are_refused),
+        cmocka_unit_test(test_volumes_multiply_by_their_product_and_where_they_are_drawn),
         cmocka_unit_test(test_what_is_computed_is_no_part_of_a_setting),
         cmocka_unit_test(test_text_longer_than_a_setting_is_refused),
         cmocka_unit_test(test_a_setting_of_exchanged_code_points_to_what_has_its_names_now),
