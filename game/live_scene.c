@@ -33,8 +33,10 @@ static void choose_box(const nook_scene *scene, uint32_t resolution, nook_live_s
     }
     out->world_from_volume = nook_matrix_translation(centre[0], centre[1], centre[2]);
     out->voxel_size = longest / (resolution < most ? resolution : most);
-    for (int k = 0; k < 3; k++)
-        out->size[k] = (uint32_t)ceil(2.0 * (double)out->box_max[k] / out->voxel_size) + 4;
+    for (int k = 0; k < 3; k++) { /* floats of the box may be a last digit longer than its side */
+        double wanted = ceil(2.0 * (double)out->box_max[k] / out->voxel_size) + 4.0;
+        out->size[k] = (uint32_t)fmin(wanted, NOOK_AO_LIVE_SIDE_MAX);
+    }
 }
 
 static nook_result allocate(const nook_scene *scene, nook_live_scene *out)

@@ -180,8 +180,9 @@ static nook_result settle(bake_request *request)
     nook_result result = request->settings ? nook_settings_file_read(request->settings, &file) : NOOK_OK;
     if (result != NOOK_OK || !request->settings)
         return result;
-    if (file.plan.mode != NOOK_PLAN_OFF)
-        nook_log_warning("bake: %s: its plan is not applied; all volumes of the scene are baked", request->settings);
+    if (file.plan.mode != NOOK_PLAN_OFF || file.live)
+        nook_log_warning("bake: %s: its plan and live volumes are left out; all volumes of the scene are baked",
+                         request->settings);
     if (request->resolution == 0)
         request->resolution = (int32_t)file.setting.resolution;
     if (request->r_max == 0.0)

@@ -64,8 +64,9 @@ static nook_result list_scenes(const nook_measure_options *options, nook_scene_l
 static nook_result read_sweep(nook_measure_options *options, nook_sweep *out)
 {
     nook_result result = options->settings ? nook_settings_file_read(options->settings, &options->file) : NOOK_OK;
-    if (result == NOOK_OK && options->file.plan.mode != NOOK_PLAN_OFF)
-        nook_log_warning("%s: its plan is left out: what is measured is the technique", options->settings);
+    if (result == NOOK_OK && (options->file.plan.mode != NOOK_PLAN_OFF || options->file.live))
+        nook_log_warning("%s: its plan and live volumes are left out: what is measured is the technique",
+                         options->settings);
     if (result == NOOK_OK)
         result = nook_sweep_read(options->sweep, out);
     if (result == NOOK_OK && options->settings)

@@ -134,11 +134,28 @@ static void test_kinds_that_nobody_voxelises_on_the_gpu_are_refused_in_one_line(
     assert_non_null(strstr(log.text, "take volume.kind = binary, or volumes = baked"));
 }
 
+/* Half of the side from -0.1 to 1 is no float; the nearest one is longer. */
+static void test_as_many_voxels_as_there_may_be_hold_a_side_that_is_no_float(void **state)
+{
+    fixture *f = *state;
+    static const float corners[3][3] = { { -0.1f, 0.0f, 0.0f }, { 1.0f, 0.0f, 0.0f }, { 0.0f, 0.0f, 0.5f } };
+    static const uint32_t indices[3] = { 0, 1, 2 };
+    nook_scene *scene;
+    nook_live_scene live;
+    assert_int_equal(nook_scene_from_triangles("side", corners[0], 3, indices, 3, &scene), NOOK_OK);
+    assert_int_equal(nook_live_scene_create(f->stage.ao, scene, NOOK_AO_LIVE_SIDE_MAX, &live), NOOK_OK);
+    assert_int_equal(live.size[0], NOOK_AO_LIVE_SIDE_MAX);
+    nook_live_scene_destroy(f->stage.ao, &live);
+    nook_scene_destroy(scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_a_scene_voxelised_as_it_is_darkens_like_a_baked_one, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_it_is_made_anew_when_a_body_has_moved_and_only_then, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_as_many_voxels_as_there_may_be_hold_a_side_that_is_no_float, set_up,
+                                        tear_down),
         cmocka_unit_test_setup_teardown(test_kinds_that_nobody_voxelises_on_the_gpu_are_refused_in_one_line, set_up,
                                         tear_down),
     };

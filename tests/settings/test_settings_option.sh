@@ -87,6 +87,14 @@ test_a_wrong_file_is_one_line_and_nothing_is_done() {
     refused 'directory' compare --settings "$tmp" --out "$tmp/refused"
 }
 
+test_bake_says_that_it_leaves_out_plans_and_live_volumes() {
+    local entry
+    for entry in 'volumes = live' 'plan = on'; do
+        printf 'technique = volume\nresolution = 16\n%s\n' "$entry" >"$tmp/more.txt"
+        assert_holds "$(nook bake "$crate" --settings "$tmp/more.txt" --cache "$tmp/cache" 2>&1)" 'its plan and live volumes are left out'
+    done
+}
+
 test_misspelt_names_on_the_command_line_get_a_suggestion() {
     assert_holds "$(assert_fails 2 compare --techniques volume,sao --out "$tmp/refused")" 'did you mean ssao?'
     assert_holds "$(assert_fails 2 compare --param volume.ray=3 --out "$tmp/refused")" 'did you mean volume.rays?'
