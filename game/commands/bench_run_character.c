@@ -5,7 +5,6 @@
 #include "engine/core/order.h"
 #include "game/commands/bench_stage.h"
 #include "game/commands/benches.h"
-#include "game/compare/camera.h"
 
 enum { FRAMES_MAX = 1000, WARM = 2 };
 
@@ -104,23 +103,23 @@ static void print_meshes(const nook_stage *stage)
     }
 }
 
-static nook_result run(nook_stage *stage, const character_options *options)
+static nook_result run(void *user, nook_stage *stage, const nook_settings_file *settings)
 {
+    const character_options *options = user;
     static double ms[STEP_COUNT][FRAMES_MAX + WARM];
     const nook_live_volumes *live = nook_game_world_live_volumes(stage->world);
     nook_camera camera;
-    char label[128];
+    char name[NOOK_BENCH_CAMERA_NAME_SIZE];
     uint32_t made = 0;
     if (live->count == 0)
         return nook_fail(NOOK_E_ARG, "%s: nothing in it bends by a clip; give a scene with skins or morph targets",
                          options->stage.scene);
-    nook_result result =
-        nook_camera_choose(stage->scene, NULL, (double)stage->width / stage->height, &camera, label, sizeof label);
+    nook_result result = nook_bench_stage_camera(stage, 0, &camera, name);
     if (result == NOOK_OK)
         result = time_frames(stage, &camera, options, ms, &made);
     if (result != NOOK_OK)
         return result;
-    printf("%s, %u x %u, %s\n", options->stage.scene, stage->width, stage->height, stage->gpu->renderer);
+    nook_bench_stage_print(&options->stage, stage, settings);
     print_meshes(stage);
     printf("  %u of %u live volumes made anew in the last frame; milliseconds of %s, %d frames\n\n ", made, live->count,
            options->cpu ? "all threads together" : "wall time", options->frames);
@@ -136,14 +135,9 @@ static nook_result run(nook_stage *stage, const character_options *options)
 int nook_bench_run_character(const nook_app *app, int argc, char **argv)
 {
     character_options options;
-    nook_stage stage;
     int exit_code;
     if (!read_options(app, argc, argv, &options, &exit_code))
         return exit_code;
     options.stage.plays = true;
-    if (nook_bench_stage_open(&options.stage, app->root, true, &stage, NULL) != NOOK_OK)
-        return NOOK_EXIT_FAILED;
-    nook_result result = run(&stage, &options);
-    nook_stage_close(&stage);
-    return result == NOOK_OK ? NOOK_EXIT_OK : NOOK_EXIT_FAILED;
+    return nook_bench_stage_run(&options.stage, app->root, true, run, &options);
 }

@@ -175,19 +175,20 @@ static nook_result cost_by_volume_size(cost_bench *b)
 
 /* ---- the command ------------------------------------------------------------------------------------------------- */
 
-static nook_result run(cost_bench *b, const nook_settings_file *settings)
+static nook_result run(void *user, nook_stage *stage, const nook_settings_file *settings)
 {
-    char label[128], setting[NOOK_SETTING_TEXT_MAX];
-    nook_stage *stage = b->stage;
-    nook_result result =
-        nook_camera_choose(stage->scene, NULL, (double)stage->width / stage->height, &b->camera, label, sizeof label);
+    const cost_options *options = user;
+    char camera[NOOK_BENCH_CAMERA_NAME_SIZE];
+    cost_bench bench = { .options = options, .stage = stage, .technique = settings->setting.technique }, *b = &bench;
+    b->way_count = nook_bench_ways(b->technique, &b->ways);
+    nook_result result = nook_bench_stage_camera(stage, 0, &b->camera, camera);
     if (result == NOOK_OK)
         result = nook_ao_get_param(stage->ao, "ao.r_max", &b->r_max);
     if (result != NOOK_OK)
         return result;
-    printf("%s, camera %s, %u x %u, %s, r_max %.3g m, %s\nmilliseconds of %s, and texture fetches of a pixel\n",
-           b->options->stage.scene, label, stage->width, stage->height, stage->gpu->renderer, b->r_max,
-           nook_setting_print(&settings->setting, setting), b->options->cpu ? "all threads together" : "wall time");
+    nook_bench_stage_print(&options->stage, stage, settings);
+    printf("camera %s; milliseconds of %s, and texture fetches of a pixel\n", camera,
+           options->cpu ? "all threads together" : "wall time");
     result = cost_by_pixels(b);
     if (result == NOOK_OK)
         result = cost_by_reach(b);
@@ -221,16 +222,8 @@ static bool read_options(const nook_app *app, int argc, char **argv, cost_option
 int nook_bench_run_cost(const nook_app *app, int argc, char **argv)
 {
     cost_options options;
-    nook_settings_file settings;
-    nook_stage stage;
     int exit_code;
     if (!read_options(app, argc, argv, &options, &exit_code))
         return exit_code;
-    if (nook_bench_stage_open(&options.stage, app->root, false, &stage, &settings) != NOOK_OK)
-        return NOOK_EXIT_FAILED;
-    cost_bench bench = { .options = &options, .stage = &stage, .technique = settings.setting.technique };
-    bench.way_count = nook_bench_ways(bench.technique, &bench.ways);
-    nook_result result = run(&bench, &settings);
-    nook_stage_close(&stage);
-    return result == NOOK_OK ? NOOK_EXIT_OK : NOOK_EXIT_FAILED;
+    return nook_bench_stage_run(&options.stage, app->root, false, run, &options);
 }

@@ -4,7 +4,6 @@
 #include "engine/core/order.h"
 #include "game/commands/bench_stage.h"
 #include "game/commands/benches.h"
-#include "game/compare/camera.h"
 
 enum { FRAMES_MAX = 1000 };
 
@@ -96,12 +95,10 @@ static nook_result time_camera(nook_stage *stage, const nook_camera *camera, int
     return result;
 }
 
-static void print_head(const nook_stage *stage, const frame_options *options, const nook_settings_file *settings)
+static void print_head(const frame_options *options, const nook_stage *stage, const nook_settings_file *settings)
 {
-    char setting[NOOK_SETTING_TEXT_MAX];
-    printf("%s, %u x %u, %s, r_max %.3g m, %s\nmilliseconds of %s\n\n  %-20s", options->stage.scene, stage->width,
-           stage->height, stage->gpu->renderer, stage->volumes.r_max, nook_setting_print(&settings->setting, setting),
-           options->cpu ? "all threads together" : "wall time", "camera");
+    nook_bench_stage_print(&options->stage, stage, settings);
+    printf("milliseconds of %s\n\n  %-20s", options->cpu ? "all threads together" : "wall time", "camera");
     for (step which = 0; which < STEP_COUNT; which++)
         printf(" %14s", step_names[which]);
     printf(" %14s\n", "sum_moving");
@@ -118,24 +115,21 @@ static void print_camera(const char *name, const double ms[STEP_COUNT])
     printf(" %14.2f\n", sum);
 }
 
-/* All cameras of the scene; one that is chosen when it has none. */
-static nook_result run(nook_stage *stage, const frame_options *options)
+static nook_result run(void *user, nook_stage *stage, const nook_settings_file *settings)
 {
+    const frame_options *options = user;
+    const uint32_t count = nook_bench_stage_camera_count(stage);
     nook_result result = NOOK_OK;
-    for (uint32_t i = 0; result == NOOK_OK; i++) {
-        const nook_scene_camera *found = nook_camera_at(stage->scene, i);
-        nook_camera camera = found ? nook_camera_from_scene(found) : (nook_camera){ 0 };
-        char label[128];
+    print_head(options, stage, settings);
+    for (uint32_t i = 0; i < count && result == NOOK_OK; i++) {
+        nook_camera camera;
+        char name[NOOK_BENCH_CAMERA_NAME_SIZE];
         double ms[STEP_COUNT];
-        if (!found && i > 0)
-            break;
-        if (!found)
-            result = nook_camera_choose(stage->scene, NULL, (double)stage->width / stage->height, &camera, label,
-                                        sizeof label);
+        result = nook_bench_stage_camera(stage, i, &camera, name);
         if (result == NOOK_OK)
             result = time_camera(stage, &camera, options->frames, options->cpu, ms);
         if (result == NOOK_OK)
-            print_camera(found ? found->name : label, ms);
+            print_camera(name, ms);
     }
     return result;
 }
@@ -143,15 +137,8 @@ static nook_result run(nook_stage *stage, const frame_options *options)
 int nook_bench_run_frame(const nook_app *app, int argc, char **argv)
 {
     frame_options options;
-    nook_settings_file settings;
-    nook_stage stage;
     int exit_code;
     if (!read_options(app, argc, argv, &options, &exit_code))
         return exit_code;
-    if (nook_bench_stage_open(&options.stage, app->root, options.quick, &stage, &settings) != NOOK_OK)
-        return NOOK_EXIT_FAILED;
-    print_head(&stage, &options, &settings);
-    nook_result result = run(&stage, &options);
-    nook_stage_close(&stage);
-    return result == NOOK_OK ? NOOK_EXIT_OK : NOOK_EXIT_FAILED;
+    return nook_bench_stage_run(&options.stage, app->root, options.quick, run, &options);
 }

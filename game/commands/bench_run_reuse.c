@@ -5,7 +5,6 @@
 #include "engine/core/vector.h"
 #include "game/commands/bench_stage.h"
 #include "game/commands/benches.h"
-#include "game/compare/camera.h"
 #include "game/compare/run.h"
 #include "game/measure/scene_hash.h"
 #include "game/measure/truth.h"
@@ -221,15 +220,20 @@ static nook_result measure_motion(nook_stage *stage, const reuse_options *option
     return result;
 }
 
-static nook_result run(nook_stage *stage, const reuse_options *options, const nook_setting *setting)
+static nook_result run(void *user, nook_stage *stage, const nook_settings_file *settings)
 {
+    const reuse_options *options = user;
     const uint64_t scene_hash = nook_scene_hash(stage->scene);
-    const nook_scene_camera *found;
+    const uint32_t count = nook_bench_stage_camera_count(stage);
     nook_result result = NOOK_OK;
-    for (uint32_t i = 0; result == NOOK_OK && (found = nook_camera_at(stage->scene, i)); i++) {
-        const nook_camera camera = nook_camera_from_scene(found);
+    nook_bench_stage_print(&options->stage, stage, settings);
+    printf("\n  %-12s %-7s %5s %8s %8s %8s %8s\n", "camera", "", "reuse", "ms", "traced", "rmse", "flicker");
+    for (uint32_t i = 0; i < count && result == NOOK_OK; i++) {
+        nook_camera camera;
+        char name[NOOK_BENCH_CAMERA_NAME_SIZE];
+        result = nook_bench_stage_camera(stage, i, &camera, name);
         for (motion how = 0; how < MOTION_COUNT && result == NOOK_OK; how++)
-            result = measure_motion(stage, options, setting, scene_hash, found->name, &camera, how);
+            result = measure_motion(stage, options, &settings->setting, scene_hash, name, &camera, how);
     }
     return result;
 }
@@ -237,18 +241,8 @@ static nook_result run(nook_stage *stage, const reuse_options *options, const no
 int nook_bench_run_reuse(const nook_app *app, int argc, char **argv)
 {
     reuse_options options;
-    nook_settings_file settings;
-    nook_stage stage;
-    char text[NOOK_SETTING_TEXT_MAX];
     int exit_code;
     if (!read_options(app, argc, argv, &options, &exit_code))
         return exit_code;
-    if (nook_bench_stage_open(&options.stage, app->root, true, &stage, &settings) != NOOK_OK)
-        return NOOK_EXIT_FAILED;
-    printf("%s, %u x %u, %s, r_max %.3g m, %s\n\n  %-12s %-7s %5s %8s %8s %8s %8s\n", options.stage.scene, stage.width,
-           stage.height, stage.gpu->renderer, stage.volumes.r_max, nook_setting_print(&settings.setting, text),
-           "camera", "", "reuse", "ms", "traced", "rmse", "flicker");
-    nook_result result = run(&stage, &options, &settings.setting);
-    nook_stage_close(&stage);
-    return result == NOOK_OK ? NOOK_EXIT_OK : NOOK_EXIT_FAILED;
+    return nook_bench_stage_run(&options.stage, app->root, true, run, &options);
 }

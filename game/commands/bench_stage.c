@@ -1,5 +1,7 @@
 #include "game/commands/bench_stage.h"
+#include "game/compare/camera.h"
 #include <assert.h>
+#include <stdio.h>
 
 bool nook_bench_stage_read(const nook_app *app, const nook_usage *usage, int argc, char **argv,
                            nook_bench_stage_options *out, int *out_exit_code)
@@ -52,4 +54,44 @@ nook_result nook_bench_stage_open(const nook_bench_stage_options *options, const
     else if (out_settings)
         *out_settings = settings;
     return result;
+}
+
+int nook_bench_stage_run(const nook_bench_stage_options *options, const char *root, bool quick,
+                         nook_bench_stage_work work, void *user)
+{
+    nook_settings_file settings;
+    nook_stage stage;
+    if (nook_bench_stage_open(options, root, quick, &stage, &settings) != NOOK_OK)
+        return NOOK_EXIT_FAILED;
+    nook_result result = work(user, &stage, &settings);
+    nook_stage_close(&stage);
+    return result == NOOK_OK ? NOOK_EXIT_OK : NOOK_EXIT_FAILED;
+}
+
+void nook_bench_stage_print(const nook_bench_stage_options *options, const nook_stage *stage,
+                            const nook_settings_file *settings)
+{
+    char setting[NOOK_SETTING_TEXT_MAX];
+    printf("%s, %u x %u, %s, r_max %.3g m, %s\n", options->scene, stage->width, stage->height, stage->gpu->renderer,
+           stage->volumes.r_max, nook_setting_print(&settings->setting, setting));
+}
+
+uint32_t nook_bench_stage_camera_count(const nook_stage *stage)
+{
+    uint32_t count = 0;
+    while (nook_camera_at(stage->scene, count))
+        count++;
+    return count > 0 ? count : 1;
+}
+
+nook_result nook_bench_stage_camera(const nook_stage *stage, uint32_t index, nook_camera *out_camera,
+                                    char out_name[NOOK_BENCH_CAMERA_NAME_SIZE])
+{
+    const nook_scene_camera *found = nook_camera_at(stage->scene, index);
+    if (!found)
+        return nook_camera_choose(stage->scene, NULL, (double)stage->width / stage->height, out_camera, out_name,
+                                  NOOK_BENCH_CAMERA_NAME_SIZE);
+    *out_camera = nook_camera_from_scene(found);
+    snprintf(out_name, NOOK_BENCH_CAMERA_NAME_SIZE, "%s", found->name);
+    return NOOK_OK;
 }

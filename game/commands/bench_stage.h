@@ -32,3 +32,21 @@ bool nook_bench_stage_read(const nook_app *app, const nook_usage *usage, int arg
  */
 nook_result nook_bench_stage_open(const nook_bench_stage_options *options, const char *root, bool quick,
                                   nook_stage *out_stage, nook_settings_file *out_settings);
+
+/** What a bench does with its stage. */
+typedef nook_result (*nook_bench_stage_work)(void *user, nook_stage *stage, const nook_settings_file *settings);
+/** Opens the stage, lets `work` have it, and closes it. @param root, quick  as nook_bench_stage_open @return a NOOK_EXIT_* code */
+int nook_bench_stage_run(const nook_bench_stage_options *options, const char *root, bool quick,
+                         nook_bench_stage_work work, void *user);
+
+/** A line: scene, size, renderer, r_max, setting. */
+void nook_bench_stage_print(const nook_bench_stage_options *options, const nook_stage *stage,
+                            const nook_settings_file *settings);
+
+enum { NOOK_BENCH_CAMERA_NAME_SIZE = 128 };
+
+/** Cameras of the scene; 1 where it has none. */
+uint32_t nook_bench_stage_camera_count(const nook_stage *stage);
+/** One of them; of a scene without any the one that nook_camera_choose finds. @return as that */
+nook_result nook_bench_stage_camera(const nook_stage *stage, uint32_t index, nook_camera *out_camera,
+                                    char out_name[NOOK_BENCH_CAMERA_NAME_SIZE]);

@@ -32,8 +32,7 @@ static uint64_t add_materials(uint64_t hash, const nook_scene *scene)
         };
         hash = add(hash, numbers, sizeof numbers);
         hash = add(hash, choices, sizeof choices);
-        if (m->alpha_mode !=
-            NOOK_ALPHA_OPAQUE) /* truths of before took what is masked whole, and left out what is blended */
+        if (m->alpha_mode != NOOK_ALPHA_OPAQUE) /* older truths took masked ones whole and left blended ones out */
             hash = add(hash, "alpha", 5);
     }
     return hash;
