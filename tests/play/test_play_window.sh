@@ -138,7 +138,6 @@ test_a_saved_level_is_gone_on_in_a_wrong_one_is_said_and_the_old_one_stays() {
     in_game '
         press e; wait_for 30 title_has "carrying crate"
         press e; wait_for 30 log_has "let go of crate"
-        see before
         sed "s/^task .*/task = Elsewhere/; s/^\[body crate\]/&\nat = -1 0 0/" "$level" >"$tmp/new"
         mv "$tmp/new" "$level" # as editors save
         wait_for 60 log_has "scene: .* reloaded"
