@@ -1,5 +1,6 @@
 #include "game/stage.h"
 #include "engine/core/log.h"
+#include "game/stream_volumes.h"
 #include "game/techniques.h"
 #include "game/volumes.h"
 #include <stdio.h>
@@ -148,9 +149,17 @@ static nook_result fill_live(nook_stage *stage)
                          stage->scene->path);
     if (stage->plan.mode != NOOK_PLAN_OFF)
         nook_log_warning("%s: its volumes are live, so that nothing is planned", stage->scene->path);
+    if (stage->stream_params.budget > 0.0f)
+        nook_log_warning("%s: its volumes are live, so that volumes.budget does nothing", stage->scene->path);
     nook_result result = nook_volumes_collect(stage->scene, &desc, &collected);
     return result == NOOK_OK ? nook_game_world_take_volumes(stage->world, stage->ao, &collected, live_resolution(stage))
                              : result;
+}
+
+static nook_result make_stream(nook_stage *stage)
+{
+    bool wanted = stage->stream_params.budget > 0.0f && !stage->live_scene;
+    return wanted && !stage->stream ? nook_stream_create(stage->ao, &stage->stream_params, &stage->stream) : NOOK_OK;
 }
 
 nook_result nook_stage_fill(nook_stage *stage, const nook_game_world_desc *desc)
@@ -163,7 +172,11 @@ nook_result nook_stage_fill(nook_stage *stage, const nook_game_world_desc *desc)
     const nook_volumes_plan plan = { stage->plan, stage->plays, nook_game_world_multiplies(stage->ao) };
     stage->volumes = *desc;
     if (result == NOOK_OK)
+        result = make_stream(stage);
+    if (result == NOOK_OK) {
+        nook_game_world_set_stream(stage->world, stage->stream);
         result = stage->live_scene ? fill_live(stage) : nook_game_world_bake(stage->world, stage->ao, desc, &plan);
+    }
     stage->filled = result == NOOK_OK;
     nook_ao_set_supply(stage->ao, supply_volumes, stage);
     if (result != NOOK_OK || stage->renderer)
@@ -193,8 +206,10 @@ nook_result nook_stage_scene_upload(nook_stage *stage, nook_scene *scene, nook_s
                            baked->occluder_count, stage->occluder_max);
     if (result == NOOK_OK)
         result = nook_game_world_create(scene, &made.world);
-    if (result == NOOK_OK)
+    if (result == NOOK_OK) {
+        nook_game_world_set_stream(made.world, stage->stream);
         result = nook_game_world_take_volumes(made.world, stage->ao, baked, live_resolution(stage));
+    }
     if (result == NOOK_OK)
         result = nook_render_scene_create(stage->gpu, scene, &made.render_scene);
     nook_volumes_free(baked);
@@ -232,6 +247,7 @@ void nook_stage_close(nook_stage *stage)
     nook_renderer_destroy(stage->renderer);
     nook_render_scene_destroy(stage->render_scene);
     nook_game_world_destroy(stage->world);
+    nook_stream_destroy(stage->stream);
     nook_ao_destroy(stage->ao);
     nook_gpu_destroy(stage->gpu);
     nook_context_destroy(stage->context);
@@ -254,11 +270,22 @@ nook_result nook_stage_check(nook_stage *stage, const char *where)
     return nook_gpu_check(stage->gpu, where) ? NOOK_E_DEVICE : NOOK_OK;
 }
 
+/* What fails here was told once, and keeps volumes from coming: the picture goes on with those that are there. */
+static void stream(nook_stage *stage, const nook_camera *camera)
+{
+    nook_matrix clip_from_view = nook_renderer_clip_from_view(stage->renderer, camera);
+    uint32_t count;
+    const nook_ao_occluder *occluders = nook_game_world_occluders(stage->world, &count);
+    (void)nook_stream_look(stage->stream, camera, &clip_from_view, occluders, count);
+}
+
 nook_result nook_stage_update(nook_stage *stage, const nook_camera *camera)
 {
     nook_result result = nook_game_world_update(stage->world, stage->ao);
     if (result != NOOK_OK)
         return result;
+    if (stage->stream)
+        stream(stage, camera);
     size_t draw_count;
     uint32_t pose_version;
     const nook_draw *draws = nook_game_world_draws(stage->world, &draw_count);

@@ -10,6 +10,7 @@
 #include "game/world.h"
 #include "modules/ao/nook_ao.h"
 #include "modules/plan/plan_params.h"
+#include "modules/stream/stream.h"
 
 typedef struct nook_stage_desc {
     const char *root;       /**< The folder that holds shaders/. */
@@ -42,6 +43,8 @@ typedef struct nook_stage {
     uint32_t occluder_max;        /**< Bodies that the AO has room for. */
     bool stop_asked;              /**< Esc or the close button while nook_stage_show looked. */
     bool quick; /**< Yours to set: draws as for play, nook_frame.quick and single-sided materials from one side. */
+    nook_stream_params stream_params; /**< Yours to set before filling: budget 0: all volumes stay on the GPU. */
+    nook_stream *stream;              /**< NULL: they do. */
     nook_plan_params plan; /**< Yours to set before filling: what may be left out and made coarser; zero: nothing. */
     bool
         live_scene; /**< Yours to set before filling: one volume of all that is rigid, voxelised as it moves; nothing is baked. */

@@ -12,6 +12,7 @@ nook_result nook_stage_settings_read(const char *path, nook_settings_file *out);
 
 /**
  * Chooses technique, reach and falloff, and fills the stage. A reach that is not given is the scene's own.
+ * Its volumes.budget is not used: who draws many frames sets nook_stage.stream_params.
  * @param cache  of baked volumes; outlives the stage
  * @return as nook_setting_apply, nook_ao_parse_param and nook_stage_fill; close the stage then
  */

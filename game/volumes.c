@@ -1,8 +1,7 @@
+/* What of a scene darkens its surroundings: bodies, their triangles, and how fine each is to be. */
 #include "game/volumes.h"
-#include "engine/core/file.h"
 #include "engine/core/log.h"
 #include "engine/core/vector.h"
-#include "game/plan/plan_apply.h"
 #include <cglm/cglm.h>
 #include <math.h>
 #include <stdio.h>
@@ -134,19 +133,16 @@ void nook_scene_volume_release(nook_scene_volume *volume)
         free(volume->bakes[kind].bytes);
         volume->bakes[kind].bytes = NULL;
     }
+    for (uint32_t i = 0; i < volume->level_count; i++)
+        free(volume->levels[i].path);
+    free(volume->levels);
+    volume->levels = NULL;
+    volume->level_count = 0;
 }
 
 size_t nook_scene_volume_index_count(const nook_scene_volume *volume)
 {
     return volume->index_count + volume->blended_index_count;
-}
-
-const nook_bake *nook_scene_volume_bake(const nook_scene_volume *volume)
-{
-    for (int kind = 0; kind < NOOK_VOLUME_KINDS; kind++)
-        if (volume->bakes[kind].bytes)
-            return &volume->bakes[kind];
-    return NULL;
 }
 
 static void free_volume(nook_scene_volume *volume)
@@ -357,8 +353,6 @@ static nook_result collect_bodies(const nook_scene *scene, uint32_t *volume_of_m
     return NOOK_OK;
 }
 
-/* ---- Baking ----------------------------------------------------------------------------------------------------- */
-
 /* The static body takes all of `resolution`; a mesh takes what its largest instance needs. */
 static void choose_resolutions(nook_scene_volumes *volumes, uint32_t resolution)
 {
@@ -373,89 +367,6 @@ static void choose_resolutions(nook_scene_volumes *volumes, uint32_t resolution)
         if (needed > volume->resolution)
             volume->resolution = needed;
     }
-}
-
-/* One line for the whole cache: what stops one volume stops all. */
-static nook_result check_kept(const nook_volumes_desc *desc, const nook_bake *bake, bool *warned)
-{
-    if (bake->keep_error == 0 || *warned)
-        return NOOK_OK;
-    const char *reason = strerror(bake->keep_error);
-    if (desc->must_keep)
-        return nook_fail(NOOK_E_IO, "%s: cannot keep volumes there: %s; give another --cache", desc->cache_dir, reason);
-    nook_log_warning("%s: cannot keep volumes there: %s; they are baked each time", desc->cache_dir, reason);
-    *warned = true;
-    return NOOK_OK;
-}
-
-bool nook_volumes_holds_blended(nook_volume_kind kind)
-{
-    return kind == NOOK_VOLUME_DENSITY || kind == NOOK_VOLUME_SURFEL;
-}
-
-/* What a kind is made of. @param out_triangles  of the volume; none: there is nothing to bake @param out_alphas  of them */
-static void select_triangles(const nook_scene_volume *volume, nook_volume_kind kind, nook_triangles *out_triangles,
-                             nook_alphas *out_alphas)
-{
-    *out_triangles = (nook_triangles){ .positions = volume->positions,
-                                       .vertex_count = volume->vertex_count,
-                                       .indices = volume->indices,
-                                       .index_count = volume->index_count };
-    if (nook_volumes_holds_blended(kind)) {
-        out_triangles->vertex_count += volume->blended_vertex_count;
-        out_triangles->index_count += volume->blended_index_count;
-    }
-    *out_alphas = (nook_alphas){ volume->parts, volume->part_count, volume->uvs };
-    while (out_alphas->part_count > 0 &&
-           volume->parts[out_alphas->part_count - 1].first_index >= out_triangles->index_count)
-        out_alphas->part_count--; /* blended ones, where the kind does not hold them */
-}
-
-/* The volume of that name in the same place of the scene as it was. @return NULL: there was none */
-static const nook_scene_volume *find_before(const nook_volumes_desc *desc, const nook_scene_volume *volume,
-                                            uint32_t place)
-{
-    const nook_scene_volumes *before = desc->before;
-    if (!before || place >= before->volume_count || strcmp(before->volumes[place].name, volume->name) != 0)
-        return NULL;
-    return before->volumes[place].resolution == volume->resolution ? &before->volumes[place] : NULL;
-}
-
-static nook_result bake_kind(const nook_volumes_desc *desc, nook_scene_volume *volume, uint32_t place,
-                             nook_volume_kind kind, bool *warned)
-{
-    nook_triangles triangles, triangles_before;
-    nook_alphas alphas, alphas_before;
-    const nook_scene_volume *before = find_before(desc, volume, place);
-    select_triangles(volume, kind, &triangles, &alphas);
-    select_triangles(before ? before : volume, kind, &triangles_before, &alphas_before);
-    if (triangles.index_count == 0)
-        return NOOK_OK;
-    const nook_voxelize_desc how = {
-        .resolution = volume->resolution, .threads = desc->threads, .kind = kind, .alphas = &alphas
-    };
-    const nook_bake_before older = { &triangles_before, &alphas_before };
-    nook_bake *bake = &volume->bakes[kind];
-    nook_result result = nook_bake_cached_again(desc->cache_dir, volume->name, &triangles, &how,
-                                                before && triangles_before.index_count ? &older : NULL, bake);
-    return result == NOOK_OK ? check_kept(desc, bake, warned) : result;
-}
-
-static nook_result bake_all(const nook_volumes_desc *desc, nook_scene_volumes *volumes)
-{
-    bool warned = false;
-    for (uint32_t i = 0; i < volumes->volume_count; i++) {
-        nook_scene_volume *volume = &volumes->volumes[i];
-        nook_result result = NOOK_OK;
-        for (int kind = 0; kind < NOOK_VOLUME_KINDS && volume->resolution > 0 && result == NOOK_OK; kind++)
-            if (volumes->kinds & NOOK_VOLUME_BIT(kind))
-                result = bake_kind(desc, volume, i, (nook_volume_kind)kind, &warned);
-        if (result != NOOK_OK)
-            return result;
-        if (desc->progress)
-            desc->progress(desc->user, volume, i, volumes->volume_count);
-    }
-    return NOOK_OK;
 }
 
 static nook_result collect(const nook_scene *scene, nook_scene_volumes *out)
@@ -493,25 +404,6 @@ nook_result nook_volumes_collect(const nook_scene *scene, const nook_volumes_des
         return result;
     }
     choose_resolutions(&volumes, resolution);
-    *out = volumes;
-    return NOOK_OK;
-}
-
-nook_result nook_volumes_bake(const nook_scene *scene, const nook_volumes_desc *desc, nook_scene_volumes *out)
-{
-    nook_scene_volumes volumes;
-    if (desc->must_keep && nook_directory_make(desc->cache_dir) != NOOK_OK)
-        return NOOK_E_IO; /* before the work */
-    nook_result result = nook_volumes_collect(scene, desc, &volumes);
-    if (result != NOOK_OK)
-        return result;
-    result = nook_plan_apply_to(scene, &volumes);
-    if (result == NOOK_OK)
-        result = bake_all(desc, &volumes);
-    if (result != NOOK_OK) {
-        nook_volumes_free(&volumes);
-        return result;
-    }
     *out = volumes;
     return NOOK_OK;
 }

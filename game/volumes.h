@@ -27,6 +27,15 @@ extern "C" {
 #define NOOK_VOLUMES_VOXELS_PER_R_MAX 64
 #define NOOK_VOLUMES_BODY_RESOLUTION_MIN 16u
 
+/** A file of a volume, for those who read it when it is wanted. */
+typedef struct nook_volume_level {
+    char *path;            /**< In the cache. Owned. */
+    nook_volume_info info; /**< What it holds. */
+    double error; /**< RMS of visibility with it, by measurement of voxels of this size (nook_plan_level_error). */
+} nook_volume_level;
+
+enum { NOOK_VOLUMES_LEVELS_MAX = 3 /**< Of a kind: each of half the resolution of the one before. */ };
+
 /** A unique volume: one mesh, or all that stands still. */
 typedef struct nook_scene_volume {
     char *name;       /**< The mesh's name, or "static"; never NULL. */
@@ -46,6 +55,10 @@ typedef struct nook_scene_volume {
                               bodies. */
     nook_bake bakes[NOOK_VOLUME_KINDS]; /**< Of each kind asked for: the .nkv file image, what it holds, bake time,
                                              cache hit; else zero. */
+    nook_volume_level
+        *levels; /**< Where they are to be streamed: of each kind that is in the cache, the finest first. Owned. */
+    uint32_t level_count;
+    double scale; /**< The same: world metres for a metre of mesh space, at its largest instance. */
 } nook_scene_volume;
 
 /** A body in the scene. */
@@ -90,6 +103,7 @@ typedef struct nook_volumes_desc {
     bool must_keep;         /**< Volumes that cannot be kept in the cache are a failure; else one warning. */
     uint32_t kinds;         /**< Of volumes: bits NOOK_VOLUME_BIT; 0: binary ones. */
     uint32_t threads;       /**< 0: all cores. */
+    bool streams;           /**< Also bakes coarser levels, and says where all of them lie. */
     nook_volumes_plan plan; /**< Zero: nothing is planned. */
     /** Of the scene as it was before it was edited, from nook_volumes_collect: what has not changed is taken from its volumes in the cache.
         NULL: nothing is known. Borrowed. */
@@ -123,6 +137,9 @@ bool nook_volumes_holds_blended(nook_volume_kind kind);
 size_t nook_scene_volume_index_count(const nook_scene_volume *volume);
 /** The first kind that a volume was baked in. @return NULL for none */
 const nook_bake *nook_scene_volume_bake(const nook_scene_volume *volume);
+/** Its files of a kind. @param out_count  0: it is not to be streamed in this kind @return the finest */
+const nook_volume_level *nook_scene_volume_levels(const nook_scene_volume *volume, nook_volume_kind kind,
+                                                  uint32_t *out_count);
 /** Frees one volume's data once it has been uploaded; its name, numbers and place stay. */
 void nook_scene_volume_release(nook_scene_volume *volume);
 void nook_volumes_free(nook_scene_volumes *volumes); /**< NULL and zeroed ones are allowed. */

@@ -3,8 +3,9 @@
 #include "game/animation.h"
 #include "game/draw_list.h"
 #include "game/progress.h"
+#include "game/stream_volumes.h"
 #include "game/volumes.h"
-#include "modules/bake/brick_grid.h"
+#include "modules/ao/residency.h"
 #include <assert.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,7 +13,8 @@
 
 struct nook_game_world {
     const nook_scene *scene;
-    nook_ao *ao; /* NULL until volumes are baked */
+    nook_ao *ao;         /* NULL until volumes are baked */
+    nook_stream *stream; /* NULL: volumes stay */
     nook_world *entities;
     nook_entity *of_node; /* scene->node_count of them */
     nook_components components;
@@ -43,7 +45,7 @@ bool nook_game_world_multiplies(const nook_ao *ao)
            nook_ao_get_param(ao, "volume.path", &path) != NOOK_OK || path != 0.0;
 }
 
-static nook_result bake(const nook_scene *scene, const nook_game_world_desc *desc, uint32_t kinds,
+static nook_result bake(const nook_game_world *world, const nook_game_world_desc *desc, uint32_t kinds,
                         const nook_volumes_plan *plan, nook_scene_volumes *out_volumes)
 {
     nook_progress progress = nook_progress_begin("baking volumes");
@@ -52,25 +54,18 @@ static nook_result bake(const nook_scene *scene, const nook_game_world_desc *des
                                         .cache_dir = desc->cache,
                                         .kinds = kinds,
                                         .plan = *plan,
+                                        .streams = world->stream != NULL,
                                         .progress = show_bake,
                                         .user = &progress };
-    nook_result result = nook_volumes_bake(scene, &volumes, out_volumes);
+    nook_result result = nook_volumes_bake(world->scene, &volumes, out_volumes);
     nook_progress_end(&progress);
     return result;
-}
-
-/* As it is on the GPU. */
-static uint64_t gpu_bytes(const nook_volume_info *info)
-{
-    if (info->kind == NOOK_VOLUME_SURFEL)
-        return nook_brick_total(info) * sizeof(nook_brick) + info->occupied * sizeof(nook_surfel);
-    return (uint64_t)info->width * info->height * info->depth;
 }
 
 static void describe_bake(const nook_bake *bake, nook_world_volume *out)
 {
     const nook_volume_info *info = &bake->info;
-    out->bakes[info->kind] = (nook_world_bake){ true, bake->cache_hit, gpu_bytes(info), bake->ms };
+    out->bakes[info->kind] = (nook_world_bake){ true, bake->cache_hit, nook_volume_gpu_bytes(info), bake->ms };
     if (out->width > 0)
         return;
     out->width = info->width;
@@ -94,15 +89,17 @@ nook_world_bake nook_world_volume_sum(const nook_world_volume *volume, uint32_t 
     return sum;
 }
 
-/* Uploads the kinds that a volume was baked in. */
-static nook_result extend(nook_ao *ao, const nook_scene_volume *baked, nook_world_volume *volume)
+/* Uploads the kinds that a volume was baked in, or says where they are. */
+static nook_result extend(nook_game_world *world, const nook_scene_volume *baked, nook_world_volume *volume)
 {
     nook_result result = NOOK_OK;
     for (int kind = 0; kind < NOOK_VOLUME_KINDS && result == NOOK_OK; kind++) {
         const nook_bake *bake = &baked->bakes[kind];
         if (!bake->bytes || volume->bakes[kind].there)
             continue;
-        result = nook_ao_extend_volume(ao, volume->occluder.volume, baked->name, bake->bytes, bake->size);
+        result = volume->streamed && nook_volume_can_stream(baked)
+                     ? nook_volume_stream(world->stream, baked, (nook_volume_kind)kind, &volume->occluder.volume)
+                     : nook_ao_extend_volume(world->ao, volume->occluder.volume, baked->name, bake->bytes, bake->size);
         if (result == NOOK_OK)
             describe_bake(bake, volume);
     }
@@ -110,15 +107,18 @@ static nook_result extend(nook_ao *ao, const nook_scene_volume *baked, nook_worl
 }
 
 /* Uploads a volume and its triangles. */
-static nook_result upload(nook_ao *ao, const nook_scene_volume *baked, nook_world_volume *volume)
+static nook_result upload(nook_game_world *world, const nook_scene_volume *baked, nook_world_volume *volume)
 {
-    nook_result result = nook_ao_reserve_volume(ao, &volume->occluder.volume);
+    nook_result result = NOOK_OK;
+    volume->streamed = world->stream && nook_volume_can_stream(baked);
+    if (!volume->streamed)
+        result = nook_ao_reserve_volume(world->ao, &volume->occluder.volume);
     if (result == NOOK_OK)
-        result = extend(ao, baked, volume);
+        result = extend(world, baked, volume);
     if (result != NOOK_OK)
         return result;
     const nook_alphas alphas = { baked->parts, baked->part_count, baked->uvs };
-    return nook_ao_add_mesh_with_alphas(ao, baked->positions, baked->vertex_count + baked->blended_vertex_count,
+    return nook_ao_add_mesh_with_alphas(world->ao, baked->positions, baked->vertex_count + baked->blended_vertex_count,
                                         baked->indices, (uint32_t)nook_scene_volume_index_count(baked), &alphas,
                                         &volume->occluder.mesh);
 }
@@ -231,7 +231,7 @@ static nook_result fill(nook_game_world *world, nook_scene_volumes *baked, uint3
         nook_world_volume *volume = &world->volumes[i];
         snprintf(volume->name, sizeof volume->name, "%s", baked->volumes[i].name);
         volume->instances = baked->volumes[i].instances;
-        result = upload(world->ao, &baked->volumes[i], volume);
+        result = upload(world, &baked->volumes[i], volume);
         nook_scene_volume_release(&baked->volumes[i]); /* the AO has its own copy; two of all are much memory */
     }
     if (result == NOOK_OK)
@@ -297,12 +297,17 @@ nook_result nook_game_world_create(const nook_scene *scene, nook_game_world **ou
     return NOOK_OK;
 }
 
+void nook_game_world_set_stream(nook_game_world *world, nook_stream *stream)
+{
+    world->stream = stream;
+}
+
 nook_result nook_game_world_bake(nook_game_world *world, nook_ao *ao, const nook_game_world_desc *desc,
                                  const nook_volumes_plan *plan)
 {
     nook_scene_volumes baked = { 0 };
     const nook_volumes_plan nothing = { .moves = false };
-    nook_result result = bake(world->scene, desc, nook_ao_volume_kinds(ao), plan ? plan : &nothing, &baked);
+    nook_result result = bake(world, desc, nook_ao_volume_kinds(ao), plan ? plan : &nothing, &baked);
     return result == NOOK_OK ? nook_game_world_take_volumes(world, ao, &baked, 0) : result;
 }
 
@@ -321,10 +326,10 @@ nook_result nook_game_world_supply(nook_game_world *world, uint32_t kinds, const
     uint32_t missing = kinds & ~world->kinds;
     if (!missing)
         return NOOK_OK;
-    nook_result result = bake(world->scene, desc, missing, &world->plan, &baked);
+    nook_result result = bake(world, desc, missing, &world->plan, &baked);
     assert(result != NOOK_OK || baked.volume_count == world->volume_count); /* of the same scene */
     for (uint32_t i = 0; i < baked.volume_count && result == NOOK_OK; i++)
-        result = extend(world->ao, &baked.volumes[i], &world->volumes[i]);
+        result = extend(world, &baked.volumes[i], &world->volumes[i]);
     if (result == NOOK_OK)
         world->kinds |= missing;
     nook_volumes_free(&baked);
@@ -341,7 +346,10 @@ void nook_game_world_destroy(nook_game_world *world)
     if (!world)
         return;
     for (uint32_t i = 0; i < world->volume_count; i++) { /* those that were not reached have no ids */
-        nook_ao_remove_volume(world->ao, world->volumes[i].occluder.volume);
+        if (world->volumes[i].streamed)
+            nook_stream_remove(world->stream, world->volumes[i].occluder.volume);
+        else
+            nook_ao_remove_volume(world->ao, world->volumes[i].occluder.volume);
         nook_ao_remove_mesh(world->ao, world->volumes[i].occluder.mesh);
     }
     nook_world_destroy(world->entities);

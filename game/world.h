@@ -16,6 +16,7 @@
 typedef struct nook_game_world nook_game_world;
 struct nook_scene_volumes; /* game/volumes.h */
 struct nook_volumes_plan;  /* the same */
+struct nook_stream;        /* modules/stream/stream.h */
 
 typedef struct nook_game_world_desc {
     uint32_t resolution; /**< Of volumes, see game/volumes.h; 0: the default. */
@@ -38,6 +39,7 @@ typedef struct nook_world_volume {
     double voxel_size;             /**< Metres. */
     uint32_t instances;            /**< Bodies that it stands for. */
     nook_volume_occluder occluder; /**< Its ids in the AO. */
+    bool streamed;                 /**< Its volume is the stream's. */
     nook_world_bake bakes[NOOK_VOLUME_KINDS];
 } nook_world_volume;
 
@@ -60,6 +62,8 @@ nook_result nook_game_world_create(const nook_scene *scene, nook_game_world **ou
  */
 nook_result nook_game_world_bake(nook_game_world *world, nook_ao *ao, const nook_game_world_desc *desc,
                                  const struct nook_volumes_plan *plan);
+/** Has volumes streamed that are baked from here on. @param stream  of the same AO; outlives the world. NULL: they stay */
+void nook_game_world_set_stream(nook_game_world *world, struct nook_stream *stream);
 /** Whether the AO multiplies the visibilities of several volumes (volume.combine, volume.path), as a plan must know. */
 bool nook_game_world_multiplies(const nook_ao *ao);
 /**

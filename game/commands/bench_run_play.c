@@ -8,6 +8,8 @@
 #include "game/interrupt.h"
 #include "game/option_rows.h"
 #include "game/play/play_window.h"
+#include "game/stream_volumes.h"
+#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -124,6 +126,16 @@ static void print_times(frame_times *times, double from, bool cpu)
     print_row("all", times->ms, times->count, cpu);
 }
 
+static void print_stream(const nook_stream *stream)
+{
+    char line[160];
+    nook_stream_status status;
+    nook_stream_get_status(stream, &status);
+    printf("\n%s\n%" PRIu64 " came, %" PRIu64 " went, at most %.3f MiB uploaded in a frame\n",
+           nook_stream_print(stream, line, sizeof line), status.loads, status.evictions,
+           (double)status.largest_upload / (1024.0 * 1024.0));
+}
+
 static nook_result run(nook_play_window *window, const play_options *options)
 {
     char setting[NOOK_SETTING_TEXT_MAX];
@@ -143,6 +155,8 @@ static nook_result run(nook_play_window *window, const play_options *options)
                            options->replay);
     if (result == NOOK_OK)
         print_times(&times, options->from, options->cpu);
+    if (result == NOOK_OK && window->stage.stream)
+        print_stream(window->stage.stream);
     free(times.ms);
     return result;
 }

@@ -174,6 +174,12 @@ static bool reads_triangles(nook_live *live)
     return reads;
 }
 
+/* What stands still is drawn anew until its volumes are there. */
+static bool volumes_come(const nook_stage *stage)
+{
+    return stage->stream && !nook_stream_is_settled(stage->stream);
+}
+
 /* The frame that is to be kept is drawn once more. */
 static nook_result follow(nook_live *live, const nook_camera *camera)
 {
@@ -181,7 +187,7 @@ static nook_result follow(nook_live *live, const nook_camera *camera)
     bool resized = live->frame_width != stage->width || live->frame_height != stage->height;
     bool keep = live->freeze || live->hold, kept = keep && live->frozen;
     nook_result result = NOOK_OK;
-    if (!kept || resized) {
+    if (!kept || resized || volumes_come(stage)) {
         live_truth_stop(live);
         nook_game_world_set_traced(stage->world, keep || reads_triangles(live));
         result = draw_gbuffer(live, kept ? &live->camera : camera);
@@ -196,7 +202,8 @@ bool nook_live_is_stale(const nook_live *live)
 {
     bool keep = live->freeze || live->hold;
     bool resized = live->frame_width != live->stage->width || live->frame_height != live->stage->height;
-    if (!keep || !live->frozen || resized || live->stale || live->picture_asked || live->capture)
+    if (!keep || !live->frozen || resized || live->stale || live->picture_asked || live->capture ||
+        volumes_come(live->stage))
         return true;
     nook_live_views state = state_of(live);
     bool news = live->truth.started && nook_refine_look(live->truth.refine).rays != live->truth.rays;

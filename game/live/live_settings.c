@@ -162,10 +162,14 @@ static void print_falloff(const nook_live *live, char *out, size_t capacity)
 
 nook_settings_file live_settings_of_active(nook_live *live)
 {
+    const nook_stage *stage = live->stage;
     nook_settings_file file = { .setting = live_setting_of(live, live->views.active),
                                 .r_max = live->views.r_max,
-                                .plan = live->stage->plan,
-                                .live = live->stage->live_scene };
+                                .plan = stage->plan,
+                                .live = stage->live_scene,
+                                .stream = stage->stream_params };
+    if (stage->stream)
+        file.stream = *nook_stream_params_of(stage->stream);
     print_falloff(live, file.falloff, sizeof file.falloff);
     return file;
 }

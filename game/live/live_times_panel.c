@@ -1,5 +1,6 @@
 /* Times, counts and memory. */
 #include "game/live/live_internal.h"
+#include "game/stream_volumes.h"
 #include "modules/ao/nook_ao.h"
 #include <stdio.h>
 
@@ -64,6 +65,8 @@ static void show_counts(nook_live *live)
              (double)nook_render_scene_bytes(stage->render_scene) * 1e-6, (double)statistics.volume_bytes * 1e-6,
              (double)statistics.texture_bytes * 1e-6);
     nook_overlay_text(live->overlay, line);
+    if (stage->stream)
+        nook_overlay_text(live->overlay, nook_stream_print(stage->stream, line, sizeof line));
 }
 
 static void show_all(nook_live *live)

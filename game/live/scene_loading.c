@@ -74,6 +74,7 @@ static void *run(void *user)
                                   .r_max = load->desc.r_max,
                                   .cache_dir = load->desc.cache,
                                   .plan = load->desc.plan,
+                                  .streams = load->desc.streams,
                                   .threads = cores > 1 ? cores - 1 : 1 }; /* one is left for the picture */
     nook_log_keep_errors(load->why, sizeof load->why);
     load->result = read_scene(load);

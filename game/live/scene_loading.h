@@ -21,6 +21,7 @@ typedef struct nook_scene_loading_desc {
     const nook_scene *shown;
     nook_volumes_plan plan;   /**< Zero: nothing is planned. */
     bool live;                /**< As nook_stage.live_scene: nothing is planned or baked. */
+    bool streams;             /**< As nook_volumes_desc. */
     uint32_t unreadable_most; /**< Images that may be unreadable: those that are so in the scene that is shown. */
 } nook_scene_loading_desc;
 

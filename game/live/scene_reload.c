@@ -239,6 +239,7 @@ static void start_load(nook_scene_reload *self)
                                            .shown = self->stage->scene,
                                            .plan = { self->stage->plan, self->stage->plays, self->multiplies },
                                            .live = self->stage->live_scene,
+                                           .streams = self->stage->stream != NULL,
                                            .unreadable_most = nook_scene_unreadable_images(self->stage->scene) };
     nook_loaded_scene_free(&self->waiting);
     self->changed = false;

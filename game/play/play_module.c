@@ -65,6 +65,8 @@ static void suspend(void *state)
     nook_live_suspend(window->live);
     if (window->scenes)
         nook_scene_reload_wait(window->scenes);
+    if (window->stage.stream)
+        nook_stream_suspend(window->stage.stream);
 }
 
 static nook_result resume(void *state, const nook_module_news *news)

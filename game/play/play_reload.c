@@ -39,6 +39,10 @@ static void use_settings(nook_play_window *w, const nook_settings_file *file)
     if (file->falloff[0] && nook_ao_parse_param(w->stage.ao, "ao.falloff", file->falloff) == NOOK_OK &&
         nook_ao_get_param(w->stage.ao, "ao.falloff", &falloff) == NOOK_OK)
         views->falloff = falloff;
+    if (w->stage.stream)
+        nook_stream_set_params(w->stage.stream, &file->stream);
+    else if (file->stream.budget > 0.0f && !file->live)
+        nook_log_info("play: a first volumes.budget comes with the next start");
     w->settings = *file;
     nook_log_info("play: settings taken over: %s", text);
 }

@@ -7,6 +7,7 @@
 #include "game/play/play_panels.h"
 #include "game/play/play_reload.h"
 #include "game/stage_settings.h"
+#include "game/stream_volumes.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -82,6 +83,7 @@ static nook_result pass_time(nook_play_window *w, double seconds)
 
 static nook_result begin(nook_play_window *w, const nook_play_window_desc *desc)
 {
+    w->stage.stream_params = w->settings.stream;
     nook_result result = nook_stage_fill_as_set(&w->stage, &w->settings, desc->cache);
     if (result == NOOK_OK)
         result = nook_play_begin(&w->play, w->stage.scene, w->stage.world);
@@ -140,8 +142,16 @@ nook_result nook_play_window_renew(nook_play_window *w)
     return nook_stage_renew(&w->stage);
 }
 
+static void tell_volumes(const nook_stream *stream)
+{
+    char line[160];
+    nook_log_info("play: %s", nook_stream_print(stream, line, sizeof line));
+}
+
 nook_result nook_play_window_close(nook_play_window *w)
 {
+    if (w->stage.stream)
+        tell_volumes(w->stage.stream);
     nook_result result = nook_play_close(&w->play); /* before the world that it stands in */
     if (memcmp(&w->preferences, &w->kept, sizeof w->kept) != 0)
         nook_preferences_write(w->preferences_path, &w->preferences);

@@ -77,6 +77,8 @@ static nook_result read_entry(reading *r, const char *name, const char *value)
         return nook_plan_params_assign(r->lines.where, &r->out.plan, name, value);
     if (strcmp(name, "volumes") == 0)
         return read_volumes(r, value);
+    if (strncmp(name, "volumes.", 8) == 0)
+        return nook_stream_params_assign(r->lines.where, &r->out.stream, name, value);
     if (strcmp(name, "falloff") != 0)
         return nook_setting_assign(r->lines.where, &r->out.setting, name, value);
     nook_result result = read_shared(r, name, value, &choice);
@@ -117,6 +119,7 @@ nook_result nook_settings_file_read(const char *path, nook_settings_file *out)
                                        .longest = LINE_MAX_BYTES - 1,
                                        .refusal = "no settings file: a line of it is not name = value" };
         r->out.plan = nook_plan_params_initial();
+        r->out.stream = nook_stream_params_initial();
         result = read_lines(r);
     } else {
         result = nook_fail(NOOK_E_MEMORY, "%s: no memory to read it", path);
@@ -166,6 +169,17 @@ static void write_plan(const nook_plan_params *plan, FILE *stream)
     }
 }
 
+/* What is not as it comes. */
+static void write_stream(const nook_stream_params *params, FILE *stream)
+{
+    size_t count;
+    char value[NOOK_SETTING_VALUE_MAX];
+    const nook_param *rows = nook_stream_param_table(&count);
+    for (size_t i = 0; i < count && params->budget > 0.0f; i++)
+        if (nook_param_get(&rows[i], params) != (double)(float)rows[i].initial)
+            fprintf(stream, "volumes.%s = %s\n", rows[i].name, nook_param_print(&rows[i], params, value, sizeof value));
+}
+
 static void write_setting(const nook_settings_file *file, FILE *stream)
 {
     const nook_setting *setting = &file->setting;
@@ -185,6 +199,7 @@ static void write_setting(const nook_settings_file *file, FILE *stream)
     write_plan(&file->plan, stream);
     if (file->live)
         fprintf(stream, "volumes = live\n");
+    write_stream(&file->stream, stream);
 }
 
 nook_result nook_settings_file_write(const char *path, const nook_settings_file *file, const char *comment)

@@ -10,10 +10,12 @@
  * One "name = value" a line, technique first. r_max (metres) and falloff may stand there too: they are then what the commands
  * use unless their own option says otherwise. So may plan (off, on, measured) and plan.error, plan.memory, ... (docs/plan.md), and
  * volumes: baked, or live, one for all that is rigid, voxelised as it moves (game/live_scene.h).
+ * volumes.budget, volumes.upload, ... for `play` (docs/streaming.md).
  */
 #pragma once
 #include "game/settings/setting.h"
 #include "modules/plan/plan_params.h"
+#include "modules/stream/stream_params.h"
 
 typedef struct nook_settings_file {
     nook_setting setting;
@@ -22,6 +24,7 @@ typedef struct nook_settings_file {
     nook_plan_params
         plan;  /**< Initial values where nothing is given; all zero, which is off, in one that was not read. */
     bool live; /**< volumes = live. */
+    nook_stream_params stream; /**< As plan. */
 } nook_settings_file;
 
 /** @return NOOK_E_NOT_FOUND, NOOK_E_IO, NOOK_E_FORMAT (file:line: what is wrong); *out untouched then */

@@ -52,11 +52,11 @@ static bool read_cached(const char *path, const char *name, uint64_t hash, nook_
     return true;
 }
 
-static void make_path(const char *cache_dir, uint64_t hash, char out[PATH_CAPACITY])
+char *nook_bake_path(const char *cache_dir, uint64_t content_hash, char *out, size_t capacity)
 {
     char file_name[32];
-    snprintf(file_name, sizeof file_name, "%016" PRIx64 ".nkv", hash);
-    nook_path_join(out, PATH_CAPACITY, cache_dir, file_name);
+    snprintf(file_name, sizeof file_name, "%016" PRIx64 ".nkv", content_hash);
+    return nook_path_join(out, capacity, cache_dir, file_name);
 }
 
 /* @return false: bake all of it */
@@ -68,7 +68,7 @@ static bool read_before(const char *cache_dir, const char *name, const nook_voxe
     nook_voxelize_desc then = *desc;
     then.alphas = before->alphas;
     uint64_t hash = nook_voxelize_hash(before->triangles, &then);
-    make_path(cache_dir, hash, path);
+    nook_bake_path(cache_dir, hash, path, sizeof path);
     if (!read_cached(path, name, hash, &cached))
         return false;
     bool read = nook_volume_decode(path, cached.bytes, cached.size, out_volume) == NOOK_OK;
@@ -142,7 +142,7 @@ nook_result nook_bake_cached_again(const char *cache_dir, const char *name, cons
     uint64_t hash = nook_voxelize_hash(triangles, desc);
     char path[PATH_CAPACITY] = "";
     if (cache_dir)
-        make_path(cache_dir, hash, path);
+        nook_bake_path(cache_dir, hash, path, sizeof path);
     nook_bake bake;
     if (!cache_dir || !read_cached(path, name, hash, &bake)) {
         result = bake_now(cache_dir, name, triangles, desc, before, &bake);

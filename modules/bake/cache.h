@@ -22,6 +22,9 @@ typedef struct nook_bake {
 
 void nook_bake_free(nook_bake *bake); /**< NULL and zeroed bakes are allowed. */
 
+/** Where the volume with that content hash lies in a cache. @return out, cut to capacity */
+char *nook_bake_path(const char *cache_dir, uint64_t content_hash, char *out, size_t capacity);
+
 /**
  * The volume of a soup, from the cache when it holds a sound one. A damaged, truncated or stale file is warned about, baked
  * again and replaced. A cache that cannot be written is done without; `keep_error` tells. Any number of threads and processes

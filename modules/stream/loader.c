@@ -5,6 +5,9 @@
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
+
+enum { PRIORITY = 10 /* "nice": a frame that wants all cores has nine parts of ten */ };
 
 typedef enum job_state { JOB_FREE, JOB_WAITS, JOB_RUNS, JOB_DONE } job_state;
 
@@ -78,18 +81,22 @@ static void run_job(stream_loader *loader, loader_job *job)
     pthread_mutex_unlock(&loader->mutex);
     nook_result result = load(job, &contents);
     pthread_mutex_lock(&loader->mutex);
+    if (job->abandoned) { /* it takes a while to give back many bytes: nobody is to wait for that */
+        pthread_mutex_unlock(&loader->mutex);
+        nook_volume_free(&contents);
+        pthread_mutex_lock(&loader->mutex);
+        job->state = JOB_FREE;
+        return;
+    }
     job->contents = contents;
     job->result = result;
     job->state = JOB_DONE;
-    if (!job->abandoned)
-        return;
-    nook_volume_free(&job->contents);
-    job->state = JOB_FREE;
 }
 
 static void *run(void *user)
 {
     stream_loader *loader = user;
+    setpriority(PRIO_PROCESS, 0, PRIORITY); /* on Linux: of this thread alone */
     pthread_mutex_lock(&loader->mutex);
     while (!loader->ends) {
         loader_job *job = first_that_waits(loader);
@@ -205,13 +212,16 @@ bool stream_loader_is_done(stream_loader *loader, int number, nook_result *out_r
 
 void stream_loader_free(stream_loader *loader, int number)
 {
+    nook_volume contents = { .voxels = NULL };
     pthread_mutex_lock(&loader->mutex);
     loader_job *job = &loader->jobs[number];
     if (job->state == JOB_RUNS) {
         job->abandoned = true;
     } else {
-        nook_volume_free(&job->contents);
+        contents = job->contents;
+        job->contents = (nook_volume){ .voxels = NULL };
         job->state = JOB_FREE;
     }
     pthread_mutex_unlock(&loader->mutex);
+    nook_volume_free(&contents);
 }

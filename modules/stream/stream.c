@@ -285,6 +285,7 @@ void nook_stream_get_status(const nook_stream *stream, nook_stream_status *out_s
 {
     nook_stream_status status = { .budget = stream_budget_bytes(stream),
                                   .all_fit = !stream->tight,
+                                  .failed = stream->failed,
                                   .loads = stream->loads,
                                   .evictions = stream->evictions,
                                   .frame_upload = stream->frame_upload,
@@ -309,5 +310,5 @@ void nook_stream_get_status(const nook_stream *stream, nook_stream_status *out_s
 
 bool nook_stream_is_settled(const nook_stream *stream)
 {
-    return stream->settled && !stream->stale;
+    return stream->failed || (stream->settled && !stream->stale);
 }

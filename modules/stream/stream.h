@@ -81,23 +81,25 @@ nook_result nook_stream_update(nook_stream *stream, const nook_stream_view *view
 
 /** Where it stands. Bytes are the GPU's. */
 typedef struct nook_stream_status {
-    uint64_t budget;           /**< 0: none. */
-    uint64_t memory;           /**< That volumes have, all kinds, those that are not streamed too. */
-    uint64_t resident_bytes;   /**< That whole, streamed volumes take of it. */
-    uint64_t wanted_bytes;     /**< That they would take if all that is wanted were there. */
-    uint32_t volumes;          /**< Bodies' files, each kind counted, but not each level. */
-    uint32_t resident;         /**< Of them, there in some level. */
-    uint32_t wanted;           /**< Of them, wanted in some level. */
-    uint32_t waiting;          /**< Of those, not there yet in the level that is wanted, or a finer one. */
-    uint32_t refused;          /**< Levels whose files cannot be used. */
-    uint32_t reading;          /**< Files that are read, decoded, or uploaded now. */
+    uint64_t budget;         /**< 0: none. */
+    uint64_t memory;         /**< That volumes have, all kinds, those that are not streamed too. */
+    uint64_t resident_bytes; /**< That whole, streamed volumes take of it. */
+    uint64_t wanted_bytes;   /**< That they would take if all that is wanted were there. */
+    uint32_t volumes;        /**< Bodies' files, each kind counted, but not each level. */
+    uint32_t resident;       /**< Of them, there in some level. */
+    uint32_t wanted;         /**< Of them, wanted in some level. */
+    uint32_t waiting;        /**< Of those, not there yet in the level that is wanted, or a finer one. */
+    uint32_t refused;        /**< Levels whose files cannot be used. */
+    uint32_t reading;        /**< Files that are read, decoded, or uploaded now. */
+    bool
+        failed; /**< The budget does not hold what always stays, or the device refused: nothing comes until it is another. */
     bool all_fit;              /**< Everything at its finest is within the budget: each has its place for good. */
     uint64_t loads, evictions; /**< Since the start: volumes that came, and that went for others. */
     uint64_t frame_upload;     /**< Bytes of the last update. */
     uint64_t largest_upload;   /**< Of any update. */
 } nook_stream_status;
 void nook_stream_get_status(const nook_stream *stream, nook_stream_status *out_status);
-/** Nothing comes any more as long as the views stay: all that is wanted and can be had is there. Of the last update. */
+/** Nothing comes any more as long as the views stay: all that is wanted and can be had is there, or it has failed. Of the last update. */
 bool nook_stream_is_settled(const nook_stream *stream);
 
 #ifdef __cplusplus

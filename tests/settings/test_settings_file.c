@@ -105,6 +105,22 @@ static void test_volumes_are_baked_unless_a_file_wants_them_live(void **state)
     must_refuse("technique = volume\nvolumes = dead\n", "2", "baked or live");
 }
 
+static void test_a_budget_of_volumes_is_read_and_written(void **state)
+{
+    (void)state;
+    static const char text[] = "technique = volume\nvolumes.budget = 12.5\nvolumes.upload = 2\n";
+    char path[PATH_BYTES];
+    nook_settings_file file, again;
+    assert_int_equal(nook_settings_file_read(write_text(path, text, strlen(text)), &file), NOOK_OK);
+    assert_true(file.stream.budget == 12.5f && file.stream.upload == 2.0f);
+    assert_true(file.stream.hysteresis == nook_stream_params_initial().hysteresis);
+    assert_int_equal(nook_settings_file_write(path, &file, NULL), NOOK_OK);
+    assert_int_equal(nook_settings_file_read(path, &again), NOOK_OK);
+    assert_memory_equal(&again.stream, &file.stream, sizeof file.stream);
+    assert_int_equal(nook_settings_file_read(write_text(path, text, 19), &file), NOOK_OK);
+    assert_true(file.stream.budget == 0.0f);
+}
+
 static void test_a_plan_is_read_and_written(void **state)
 {
     (void)state;
@@ -212,6 +228,7 @@ int main(void)
         cmocka_unit_test(test_r_max_and_falloff_need_not_be_given),
         cmocka_unit_test(test_what_is_written_reads_back_the_same),
         cmocka_unit_test(test_volumes_are_baked_unless_a_file_wants_them_live),
+        cmocka_unit_test(test_a_budget_of_volumes_is_read_and_written),
         cmocka_unit_test(test_a_plan_is_read_and_written),
         cmocka_unit_test(test_every_technique_as_it_comes_is_one_line),
         cmocka_unit_test(test_wrong_files_are_refused_with_their_line),

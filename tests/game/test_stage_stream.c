@@ -1,0 +1,185 @@
+/* A stage whose volumes are streamed from the cache: what it shows, and a model that is saved meanwhile. */
+#include "engine/core/clock.h"
+#include "game/compare/camera.h"
+#include "game/live/scene_reload.h"
+#include "game/stage.h"
+#include "game/stream_volumes.h"
+#include "tests/support/file_tree.h"
+#include "tests/support/log_capture.h"
+#include "tests/support/test_gpu.h"
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <cmocka.h>
+
+enum { WIDTH = 48, HEIGHT = 32, RESOLUTION = 64 };
+
+typedef uint8_t picture[WIDTH * HEIGHT * 3];
+
+typedef struct fixture {
+    file_tree tree;
+    char path[1024], cache[1024];
+    nook_stage stage;
+    nook_camera camera;
+    nook_log_capture log;
+} fixture;
+
+static void open_stage(fixture *self, double budget)
+{
+    char label[64];
+    const nook_stage_desc desc = { .root = test_gpu_root(),
+                                   .scene_path = self->path,
+                                   .backend = NOOK_BACKEND_OSMESA,
+                                   .width = WIDTH,
+                                   .height = HEIGHT };
+    assert_int_equal(nook_stage_open(&desc, &self->stage), NOOK_OK);
+    self->stage.stream_params = nook_stream_params_initial();
+    self->stage.stream_params.budget = (float)budget;
+    assert_int_equal(nook_stage_fill(&self->stage, &(nook_game_world_desc){ RESOLUTION, 0.5, self->cache }), NOOK_OK);
+    assert_int_equal(nook_camera_choose(self->stage.scene, NULL, 1.5, &self->camera, label, sizeof label), NOOK_OK);
+}
+
+static int setup(void **state)
+{
+    fixture *self = calloc(1, sizeof *self);
+    if (!self)
+        return -1;
+    *state = self;
+    file_tree_begin(&self->tree, "streamed");
+    file_tree_copy(&self->tree, test_gpu_root(), "tests/game/data/crate.gltf");
+    file_tree_path(&self->tree, "tests/game/data/crate.gltf", self->path, sizeof self->path);
+    file_tree_path(&self->tree, "cache", self->cache, sizeof self->cache);
+    nook_log_capture_begin(&self->log);
+    return 0;
+}
+
+static int teardown(void **state)
+{
+    fixture *self = *state;
+    nook_stage_close(&self->stage);
+    nook_log_capture_end();
+    free(self);
+    return 0;
+}
+
+static void draw(fixture *self, picture out)
+{
+    assert_int_equal(nook_stage_begin(&self->stage, &self->camera), NOOK_OK);
+    assert_int_equal(nook_stage_occlude(&self->stage), NOOK_OK);
+    assert_int_equal(nook_stage_finish(&self->stage, true, NOOK_VIEW_VISIBILITY), NOOK_OK);
+    nook_renderer_read(self->stage.renderer, out);
+}
+
+/* Draws until nothing comes any more. */
+static void settle(fixture *self, picture out)
+{
+    const struct timespec pause = { 0, 1000 * 1000 };
+    double end = nook_clock_ms() + 60000.0;
+    do {
+        draw(self, out);
+        assert_true(nook_clock_ms() < end);
+        nanosleep(&pause, NULL);
+    } while (!nook_stream_is_settled(self->stage.stream));
+    draw(self, out);
+}
+
+static void test_a_streamed_scene_becomes_the_picture_of_one_that_is_not(void **state)
+{
+    fixture *self = *state;
+    picture all, streamed;
+    char line[160];
+    open_stage(self, 0.0);
+    assert_null(self->stage.stream);
+    draw(self, all);
+    nook_stage_close(&self->stage);
+    open_stage(self, 64.0);
+    assert_non_null(self->stage.stream);
+    settle(self, streamed);
+    assert_memory_equal(all, streamed, sizeof all);
+    assert_non_null(strstr(nook_stream_print(self->stage.stream, line, sizeof line), "of 64.00 MiB, 2 of 2 there"));
+}
+
+static void test_a_scene_with_little_memory_shows_coarser_volumes(void **state)
+{
+    fixture *self = *state;
+    picture streamed;
+    uint32_t count;
+    nook_stream_status status;
+    open_stage(self, 0.0);
+    draw(self, streamed);
+    uint64_t bytes = 0;
+    const nook_world_volume *volumes = nook_game_world_volumes(self->stage.world, &count);
+    for (uint32_t i = 0; i < count; i++)
+        bytes += nook_world_volume_sum(&volumes[i], NOOK_WORLD_EVERY_KIND).bytes;
+    nook_stage_close(&self->stage);
+    double budget = (double)bytes / (1024.0 * 1024.0) * 0.75;
+    open_stage(self, budget);
+    settle(self, streamed);
+    nook_stream_get_status(self->stage.stream, &status);
+    assert_true(status.memory <= (uint64_t)(budget * 1024.0 * 1024.0));
+    assert_int_equal(status.resident, 2);
+    assert_true(status.resident_bytes < bytes);
+}
+
+static void exchange(fixture *self, nook_scene_reload *reload)
+{
+    const struct timespec pause = { 0, 1000 * 1000 };
+    double end = nook_clock_ms() + 60000.0;
+    picture seen;
+    while (!nook_scene_reload_poll(reload)) {
+        draw(self, seen);
+        assert_true(nook_clock_ms() < end);
+        nanosleep(&pause, NULL);
+    }
+    assert_int_equal(nook_scene_reload_swap(reload, NULL, NULL), NOOK_OK);
+}
+
+static void test_a_model_that_is_saved_is_exchanged_while_volumes_stream(void **state)
+{
+    fixture *self = *state;
+    picture before, after, fresh;
+    nook_scene_reload *reload;
+    nook_stream_status status;
+    open_stage(self, 64.0);
+    assert_int_equal(nook_scene_reload_create(&self->stage, NULL, &reload), NOOK_OK);
+    settle(self, before);
+    nook_stream_get_status(self->stage.stream, &status);
+    uint64_t loads = status.loads;
+    /* Nothing that has a volume is another: the same files, which are there. */
+    file_tree_edit(&self->tree, "tests/game/data/crate.gltf", "    0.3,\n", "    -0.8,\n");
+    exchange(self, reload);
+    settle(self, after);
+    nook_stream_get_status(self->stage.stream, &status);
+    assert_true(status.loads == loads);
+    assert_int_equal(status.volumes, 2);
+    assert_memory_not_equal(before, after, sizeof before);
+    /* What stands still is another mesh now. */
+    file_tree_edit(&self->tree, "tests/game/data/crate.gltf", "\"nook_body\": true", "\"nook_body\": false");
+    exchange(self, reload);
+    settle(self, after);
+    nook_stream_get_status(self->stage.stream, &status);
+    assert_true(status.loads > loads);
+    assert_int_equal(status.volumes, 1);
+    nook_scene_reload_destroy(reload);
+    nook_stage_close(&self->stage);
+    open_stage(self, 0.0);
+    draw(self, fresh);
+    uint32_t different = 0;
+    for (size_t i = 0; i < sizeof fresh; i++)
+        different += abs(fresh[i] - after[i]) > 2; /* its place in the atlas is another: texture coordinates round */
+    assert_true(different * 50 < sizeof fresh);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(test_a_streamed_scene_becomes_the_picture_of_one_that_is_not, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_a_scene_with_little_memory_shows_coarser_volumes, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_a_model_that_is_saved_is_exchanged_while_volumes_stream, setup, teardown),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
