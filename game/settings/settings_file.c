@@ -154,30 +154,35 @@ static void write_number(const char *name, double value, FILE *stream)
     fprintf(stream, "%s = %s\n", name, text);
 }
 
-/* What is not as it comes; "plan" is the mode. */
+/* Those that are not as they come. */
+static void write_rows(const char *owner, const nook_param *rows, size_t count, const void *params, FILE *stream)
+{
+    char value[NOOK_SETTING_VALUE_MAX];
+    for (size_t i = 0; i < count; i++)
+        if (nook_param_get(&rows[i], params) != (double)(float)rows[i].initial)
+            fprintf(stream, "%s.%s = %s\n", owner, rows[i].name,
+                    nook_param_print(&rows[i], params, value, sizeof value));
+}
+
 static void write_plan(const nook_plan_params *plan, FILE *stream)
 {
     size_t count;
-    char value[NOOK_SETTING_VALUE_MAX];
+    char mode[NOOK_SETTING_VALUE_MAX];
     const nook_param *rows = nook_plan_param_table(&count);
-    for (size_t i = 0; i < count && plan->mode != NOOK_PLAN_OFF; i++) {
-        nook_param_print(&rows[i], plan, value, sizeof value);
-        if (strcmp(rows[i].name, "mode") == 0)
-            fprintf(stream, "plan = %s\n", value);
-        else if (nook_param_get(&rows[i], plan) != (double)(float)rows[i].initial)
-            fprintf(stream, "plan.%s = %s\n", rows[i].name, value);
-    }
+    nook_plan_params rest = *plan;
+    if (plan->mode == NOOK_PLAN_OFF)
+        return;
+    rest.mode = NOOK_PLAN_OFF; /* has its line: */
+    fprintf(stream, "plan = %s\n", nook_param_print(nook_param_find(rows, count, "mode"), plan, mode, sizeof mode));
+    write_rows("plan", rows, count, &rest, stream);
 }
 
-/* What is not as it comes. */
 static void write_stream(const nook_stream_params *params, FILE *stream)
 {
     size_t count;
-    char value[NOOK_SETTING_VALUE_MAX];
     const nook_param *rows = nook_stream_param_table(&count);
-    for (size_t i = 0; i < count && params->budget > 0.0f; i++)
-        if (nook_param_get(&rows[i], params) != (double)(float)rows[i].initial)
-            fprintf(stream, "volumes.%s = %s\n", rows[i].name, nook_param_print(&rows[i], params, value, sizeof value));
+    if (params->budget > 0.0f)
+        write_rows("volumes", rows, count, params, stream);
 }
 
 static void write_setting(const nook_settings_file *file, FILE *stream)
