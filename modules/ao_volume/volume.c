@@ -11,7 +11,7 @@
 #include "engine/core/param_block.inl"
 #include <stdio.h>
 
-enum { COMBINE_MULTIPLY = 0, SAMPLING_CORNERS = 1, PATH_RASTER = 1 };
+enum { COMBINE_MULTIPLY = 0, SAMPLING_CORNERS = 1, PATH_RASTER = 1, GUARD_SEEN = 2 };
 enum {
     TILE_SIZE = 8,
     BINDING_DIRECTIONS = 4,
@@ -160,7 +160,8 @@ static uint32_t is_reusable(const void *params)
 
 static volume_task make_task(const volume_params *p, const nook_ao_pass *pass)
 {
-    const volume_work work = { (uint32_t)p->rays, (uint32_t)p->steps, pass->occluder_count,
+    uint32_t out = p->guard == GUARD_SEEN ? VOLUME_TURNS_OUT : 0; /* once for all rays, but they may be in parts */
+    const volume_work work = { (uint32_t)p->rays, (uint32_t)p->steps + out, pass->occluder_count,
                                p->combine == COMBINE_MULTIPLY || p->path == PATH_RASTER };
     volume_task task = { .usual = work, .most = work, .kept_format = GL_R32F };
     if (p->kind != NOOK_VOLUME_BINARY) {

@@ -30,12 +30,14 @@ float agreement(Voter a, Voter b)
 }
 
 // Where the winner's plane is seen through the middle of the block, from where rays start. A plane seen from its edge would be met
-// anywhere: no farther from the winner than on one seen under 14 degrees a block away.
-float depth_of_plane(Voter winner, vec3 ray)
+// anywhere: no farther from the winner than on one seen under 14 degrees a block away; nor behind what the middle itself sees, if that
+// is near: a strip's plane goes on into the wall beside it.
+float depth_of_plane(Voter winner, vec3 ray, float seen)
 {
     float own = -winner.position.z, reach = 4.0 * own * pixel_footprint() * float(frame.scale);
     float met = dot(winner.normal, winner.position) / dot(winner.normal, ray);
-    return met > 0.0 ? clamp(met, own - reach, own + reach) : own; // not for NaN
+    float far = seen > own - reach ? min(seen, own + reach) : own + reach;
+    return met > 0.0 ? clamp(met, own - reach, far) : own; // not for NaN
 }
 
 // @return depth, 0 where nothing is seen
@@ -56,5 +58,6 @@ float representative(ivec2 trace_pixel, out vec3 normal)
         }
     }
     normal = winner.normal;
-    return most >= 0.0 ? depth_of_plane(winner, full_ray(vec2(full_pixel(trace_pixel)))) : 0.0;
+    ivec2 middle = full_pixel(trace_pixel);
+    return most >= 0.0 ? depth_of_plane(winner, full_ray(vec2(middle)), distance_at(middle)) : 0.0;
 }

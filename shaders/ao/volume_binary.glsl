@@ -5,7 +5,7 @@
 #include "ao/nearest_hit.glsl"
 
 const int STEPPING_FIXED = 0;
-const int GUARD_SLAB = 0;
+const int GUARD_SLAB = 0, GUARD_SEEN = 2;
 const float FILTER_PRECISION = 0.015; // voxels: hardware interpolates with 8-bit weights, three axes of 1/256 and a little
 
 #ifdef CORNERS
@@ -47,6 +47,22 @@ struct Receiver {
     bool can_see; // some ray can hit
 };
 
+// The part of the way to the eye on which a point comes out of the voxels that it lies in; 0 where it lies in none or in too many.
+// The point is seen, so that no surface lies between: what is full there is the fatness of voxels of other surfaces.
+float way_out(Occluder o, vec3 voxel, vec3 way)
+{
+    const float STRIDE = 0.5; // of the layer of a surface, which is a voxel thick at threshold 0.5
+    float eye = length(way), apart = 0.0;
+    vec3 towards = way / max(eye, 1e-20);
+    for (int i = 0; i < VOLUME_TURNS_OUT; i++, apart += STRIDE) {
+        steps++;
+        vec3 at = clamp(voxel + towards * apart, vec3(MARGIN), o.size.xyz - MARGIN);
+        if (density(o, at, atlas_grid()) < params.threshold)
+            break;
+    }
+    return apart < min(eye, float(VOLUME_TURNS_OUT) * STRIDE) ? apart / eye : 0.0;
+}
+
 // C7: voxels made by the fragment's own plane reach ((|nx|+|ny|+|nz|)/2 + 1 - threshold) voxels above it in the filtered
 // volume, n in voxel space.
 Receiver receive(Occluder o, vec3 position, vec3 normal)
@@ -61,6 +77,10 @@ Receiver receive(Occluder o, vec3 position, vec3 normal)
     // Highest point of the volume above the fragment's plane: below the slab there is nothing to hit.
     float top = dot(r.normal, 0.5 * o.size.xyz - r.voxel) + dot(abs(r.normal), 0.5 * o.size.xyz - MARGIN);
     r.can_see = is_near(o, r.voxel) && top > r.slab && r.guard < frame.r_max;
+    if (r.can_see && params.guard == GUARD_SEEN) {
+        vec3 way = -direction_to_voxel(o, position);
+        r.voxel += way * way_out(o, r.voxel + r.normal * r.slab, way);
+    }
     return r;
 }
 

@@ -128,6 +128,23 @@ static void test_majority_of_a_plane_seen_from_its_edge_stays_near_what_was_seen
     }
 }
 
+static void test_majority_starts_on_what_the_middle_of_the_block_sees_where_its_plane_goes_on_behind_that(void **state)
+{
+    nook_fixture_view *view = *state;
+    for (uint32_t near = 0; near < 2;
+         near++) { /* what is nearer by more than four blocks is another thing, and the plane's place stays */
+        double before = near ? 3.0 : 4.98;
+        uint32_t scale = start(view, 1, "majority");
+        for (uint32_t i = 0; i < WIDTH * HEIGHT; i++) {
+            uint32_t x = i % WIDTH, y = i / WIDTH;
+            bool middle = x % scale == scale / 2 && y % scale == scale / 2;
+            nook_fixture_view_set_pixel(view, x, y, middle ? before : 5.0, facing);
+        }
+        ao_view_record(view, "probe");
+        expect_plane(view, scale, facing, near ? 5.0 : before, false);
+    }
+}
+
 static void test_another_downsample_counts_for_a_view_that_stayed_the_same(void **state)
 {
     nook_fixture_view *view = *state;
@@ -150,6 +167,7 @@ int main(void)
         cmocka_unit_test(test_majority_leaves_joints_of_a_pixel_to_the_upscaling_wherever_they_lie),
         cmocka_unit_test(test_majority_is_of_what_is_seen_and_nothing_only_where_all_see_nothing),
         cmocka_unit_test(test_majority_of_a_plane_seen_from_its_edge_stays_near_what_was_seen),
+        cmocka_unit_test(test_majority_starts_on_what_the_middle_of_the_block_sees_where_its_plane_goes_on_behind_that),
         cmocka_unit_test(test_another_downsample_counts_for_a_view_that_stayed_the_same),
     };
     return cmocka_run_group_tests(tests, setup, ao_view_teardown);

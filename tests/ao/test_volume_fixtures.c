@@ -80,6 +80,11 @@ static void test_volume_sees_nothing_above_a_floor_with_the_papers_guard_directi
     check_floor_sweep(state, "slab", "fixed", "0.5", 4);
 }
 
+static void test_volume_sees_nothing_above_a_floor_from_a_start_that_is_moved_to_the_eye(void **state)
+{
+    check_floor_sweep(state, "seen", "matched", "0.5", 8);
+}
+
 static void test_volume_sees_nothing_above_a_floor_at_other_thresholds(void **state)
 {
     check_floor_sweep(state, "lifted", "matched", "0.2", 8);
@@ -133,6 +138,44 @@ static void expect(ao_fixture *fixture, double truth)
     double got = ao_fixture_measure(fixture, "volume", origin, up, 0.3).mean;
     if (fabs(got - truth) >= 0.02)
         fail_msg("A = %.4f, predicted %.4f", got, truth);
+}
+
+/**
+ * The foot of a thick wall whose face lies at `phase` of a voxel of 1, a fiftieth of a voxel from it, seen from between wall and floor. The
+ * floor itself has no volume.
+ */
+static double measure_foot(ao_fixture *fixture, const char *guard, double phase)
+{
+    nook_fixture_view *view = fixture->view;
+    nook_fixture_mesh mesh = { 0 };
+    const double eye[3] = { 6, 3, 6 }, distance = 9;
+    ao_fixture_clear(fixture);
+    nook_fixture_add_box(&mesh, (double[]){ -4, -24, -24 }, (double[]){ -0.02, 24, 24 }, 63);
+    for (int side = 0; side < 2; side++) { /* two specks fix the grid */
+        double p = side ? 28.0 - phase : -28.0 - phase;
+        nook_fixture_add_triangle(&mesh, (double[]){ p, p, p }, (double[]){ p, p, p }, (double[]){ p, p, p });
+    }
+    assert_true(fabs(ao_fixture_add(fixture, &mesh, 56) - 1.0) < 1e-6);
+    nook_fixture_mesh_free(&mesh);
+    ao_fixture_param(fixture, "volume.guard", guard);
+    view->view_from_world = nook_matrix_look_at(eye, origin, up);
+    view->clip_from_view = nook_matrix_perspective_reversed(1e-3, 1.0, 0.1);
+    for (uint32_t i = 0; i < view->width * view->height; i++)
+        nook_fixture_view_set_pixel(view, i % view->width, i / view->width, distance, up);
+    assert_int_equal(nook_fixture_view_record(view, "volume"), NOOK_OK);
+    return nook_fixture_summarize(view, 0, 0, view->width, view->height).mean;
+}
+
+static void test_volume_sees_half_of_the_sky_at_the_foot_of_a_wall_when_its_start_is_moved_to_the_eye(void **state)
+{
+    ao_fixture *fixture = prepare(state, "union", "16");
+    double lifted = 0.0, seen = 0.0;
+    for (int phase = 0; phase < 16; phase++) {
+        lifted = fmax(lifted, fabs(measure_foot(fixture, "lifted", phase / 16.0) - 0.5));
+        seen = fmax(seen, fabs(measure_foot(fixture, "seen", phase / 16.0) - 0.5));
+    }
+    assert_true(lifted > 0.2); /* else the wall's voxels do not cover the start */
+    assert_true(seen < 0.02);
 }
 
 static void test_volume_union_counts_a_wall_once_and_multiply_squares_it(void **state)
@@ -269,9 +312,11 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_volume_sees_nothing_above_a_floor_at_any_phase_and_tilt),
         cmocka_unit_test(test_volume_sees_nothing_above_a_floor_with_the_papers_guard_direction_and_steps),
+        cmocka_unit_test(test_volume_sees_nothing_above_a_floor_from_a_start_that_is_moved_to_the_eye),
         cmocka_unit_test(test_volume_sees_nothing_above_a_floor_at_other_thresholds),
         cmocka_unit_test(test_volume_sees_nothing_above_a_floor_by_corners),
         cmocka_unit_test(test_volume_is_closed_in_a_closed_box_within_eight_voxels),
+        cmocka_unit_test(test_volume_sees_half_of_the_sky_at_the_foot_of_a_wall_when_its_start_is_moved_to_the_eye),
         cmocka_unit_test(test_volume_union_counts_a_wall_once_and_multiply_squares_it),
         cmocka_unit_test(test_volume_union_adds_opposite_walls_and_multiply_falls_short),
         cmocka_unit_test(test_volume_combines_the_six_faces_of_a_cube_as_predicted),
