@@ -61,7 +61,8 @@ static nook_result read_volumes(reading *r, const char *value)
     r->out.live = strcmp(value, "live") == 0;
     return r->out.live || strcmp(value, "baked") == 0
                ? NOOK_OK
-               : nook_fail(NOOK_E_FORMAT, "%s: volumes is baked or live, not %s", r->lines.where, value);
+               : nook_fail(NOOK_E_FORMAT, "%s: volumes is baked or live, not %s; their MiB are volumes.budget",
+                           r->lines.where, value);
 }
 
 static nook_result read_entry(reading *r, const char *name, const char *value)
