@@ -47,9 +47,9 @@ int nook_bench_run_ecs(const nook_app *app, int argc, char **argv)
     (void)app;
     bench_settings settings = { .entities = 1000000, .repeat = 7 };
     const nook_option options[] = {
-        nook_option_row_int("entities", &settings.entities, 1, 50000000, "how many entities; 1000000"),
+        nook_option_row_int("entities", &settings.entities, 1, 50000000, "default 1000000"),
         nook_option_row_int("repeat", &settings.repeat, 1, NOOK_BENCH_ROUNDS_MAX,
-                            "rounds to take the median of, after one to warm up; 7"),
+                            "rounds to take the median of, after one to warm up; default 7"),
         nook_option_row_json(&settings.json, "print JSON"),
     };
     const nook_usage usage = { .command = "bench ecs",
