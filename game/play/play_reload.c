@@ -54,7 +54,9 @@ static nook_result go_on(void *game, nook_level *level, const nook_scene *scene,
 
 static void take_scene(nook_play_window *w)
 {
-    nook_scene_reload_plan_for(w->scenes, nook_live_multiplies(w->live));
+    /* A game that goes on in other volumes is another session: what is recorded or replayed would end there. */
+    if (!*w->play.record_path && nook_play_is_free(&w->play))
+        nook_scene_reload_plan_for(w->scenes, nook_live_multiplies(w->live));
     if (nook_scene_reload_poll(w->scenes)) {
         nook_live_suspend(w->live); /* its truth reads the triangles of the old one */
         nook_scene_reload_swap(w->scenes, go_on, &w->play);

@@ -5,15 +5,18 @@ source tests/support/shell.sh
 source tests/support/window.sh
 level=tests/play/data/crate.level
 
-# in_game SCRIPT [OPTION...]: beside `nook play $level`; an interrupt ends it.
-in_game() {
+# beside_game SCRIPT [OPTION...]: beside `nook play $level`; an interrupt ends it.
+beside_game() {
     local beside=$1
     shift
     in_window_of "Nook - One crate" "xdotool windowfocus --sync \$window; sleep 0.5
         $beside
         kill -INT \$program_id" \
-        play "$level" --size 320x200 --cache "$tmp/cache" --record "$tmp/played.replay" "$@"
+        play "$level" --size 320x200 --cache "$tmp/cache" "$@"
 }
+
+# in_game SCRIPT [OPTION...]: the same, recorded.
+in_game() { beside_game "$@" --record "$tmp/played.replay"; }
 
 test_keys_walk_take_and_let_go_and_the_recording_replays_to_the_same_state() {
     rm -f "$tmp/played.replay"
@@ -127,6 +130,28 @@ test_a_saved_settings_file_is_used_a_wrong_one_is_said_and_the_old_one_stays() {
         wait_for 30 has_red
         printf "technique = ssao\n" >"$tmp/live.settings"
         wait_for 30 log_has "settings taken over: ssao"' --settings "$tmp/live.settings"
+}
+
+test_volumes_are_planned_anew_when_saved_settings_multiply_them_and_other_plans_wait() {
+    printf 'technique = volume\nplan = measured\n' >"$tmp/plan.settings"
+    beside_game '
+        printf "technique = volume\nplan = measured\nrays = 3\n" >"$tmp/plan.settings"
+        wait_for 30 log_has "settings taken over: volume rays=3"
+        printf "technique = volume\nplan = measured\ncombine = multiply\n" >"$tmp/plan.settings"
+        wait_for 60 log_has "scene: .* reloaded"
+        printf "technique = volume\nplan = on\n" >"$tmp/plan.settings"
+        wait_for 30 log_has "taken over with the next start"' --settings "$tmp/plan.settings"
+    [ "$(grep -n 'settings taken over: volume combine=multiply' "$tmp/log" | cut -d : -f 1)" -lt "$(grep -n 'scene: .* reloaded' "$tmp/log" | head -n 1 | cut -d : -f 1)" ]
+}
+
+test_a_recording_does_not_end_for_another_plan() {
+    printf 'technique = volume\nplan = measured\n' >"$tmp/plan.settings"
+    in_game '
+        printf "technique = volume\nplan = measured\ncombine = multiply\n" >"$tmp/plan.settings"
+        wait_for 30 log_has "settings taken over: volume combine=multiply"
+        sleep 2' --settings "$tmp/plan.settings"
+    not grep -q 'scene: .* reloaded' "$tmp/log"
+    [ "$("$program" play --headless --replay "$tmp/played.replay" | tail -n 1)" = "$(tail -n 1 "$tmp/table")" ]
 }
 
 test_a_saved_level_is_gone_on_in_a_wrong_one_is_said_and_the_old_one_stays() {
