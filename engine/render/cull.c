@@ -11,7 +11,7 @@
 #include <string.h>
 
 enum {
-    SEEN_MAX = 1 << 22 /* triangles of all draws: with more nothing is culled, which takes some 60 bytes for each */
+    SEEN_MAX = 1 << 22 /* triangles of all draws: with more nothing is culled, which takes some 80 bytes for each */
 };
 
 static bool list_grow(nook_gpu *gpu, index_list *list, size_t triangles, size_t ranges)
@@ -99,10 +99,11 @@ nook_result nook_cull_begin(nook_renderer *renderer, const nook_frame *frame)
     cull->on = false;
     if (!frame->quick || !renderer->gpu->software || renderer->draws_hidden)
         return NOOK_OK;
+    if (!place_draws(renderer->gpu, cull, frame) ||
+        !nook_grow(&cull->depths, (size_t)renderer->width * renderer->height * sizeof(float)))
+        return NOOK_OK;
     nook_result result = nook_chunks_make(frame->scene->scene, &frame->scene->chunks);
-    if (result == NOOK_OK)
-        cull->on = place_draws(renderer->gpu, cull, frame) &&
-                   nook_grow(&cull->depths, (size_t)renderer->width * renderer->height * sizeof(float));
+    cull->on = result == NOOK_OK;
     return result;
 }
 

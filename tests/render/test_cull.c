@@ -142,6 +142,55 @@ static void test_what_is_left_out_shows_nothing_whatever_moves(void **state)
     test_picture_destroy(&picture);
 }
 
+/** A rotation about the origin. */
+static nook_matrix random_turn(uint64_t *seed)
+{
+    nook_matrix place = random_place(seed);
+    for (int k = 0; k < 3; k++) {
+        double *column = place.m + 4 * k;
+        double length = nook_vector_length(column);
+        for (int i = 0; i < 3; i++)
+            column[i] /= length;
+        place.m[12 + k] = 0.0;
+    }
+    return place;
+}
+
+/** Sheets of a pixel or two, a hair before a wall. Their vertices are kilometres from the origin of their mesh and are seen from half a
+    metre: what the driver rounds in adding up is millimetres. */
+static void test_meshes_far_from_their_own_origin_lose_nothing(void **state)
+{
+    enum { FRAMES = 150 };
+    static const float away[3] = { 20000.0f, -12000.0f, 15000.0f }, side = 0x1p-6f;
+    test_scene scene;
+    test_picture picture;
+    both b;
+    uint64_t seed = 11;
+    uint32_t different = 0;
+    test_scene_init(&scene);
+    test_scene_add_quad(&scene, away, (float[]){ 0.5f, 0, 0 }, (float[]){ 0, 0.5f, 0 });
+    for (int i = 1; i < TEST_SCENE_MESHES; i++) {
+        const float corner[3] = { away[0] + 0x1p-4f * (float)i, away[1] + 0x1p-3f * (float)(i % 3), away[2] + 0x1p-7f };
+        test_scene_add_quad(&scene, corner, (float[]){ side, 0, 0 }, (float[]){ 0, side, 0 });
+    }
+    test_picture_create(&picture, test_gpu_of(state), &scene, SIZE, SIZE);
+    both_create(&b, test_gpu_of(state), SIZE, SIZE);
+    picture.frame.camera.fov_y_radians = 1.1; /* x and y are multiplied by what is no power of 2 */
+    nook_matrix back = nook_matrix_translation(-(double)away[0] - 0.25, -(double)away[1] - 0.25, -(double)away[2]);
+    for (int i = 0; i < FRAMES; i++) {
+        nook_matrix turn = random_turn(&seed), there = nook_matrix_translation(0.0, 0.0, -0.3 - next_random(&seed));
+        nook_matrix place = nook_matrix_multiply(&turn, &back);
+        for (uint32_t k = 0; k < TEST_SCENE_MESHES; k++)
+            picture.draws[k].world_from_local = nook_matrix_multiply(&there, &place);
+        picture.frame.cull_back_faces = i % 2 == 0;
+        for (int again = 0; again < 3; again++) /* all of it; what showed; what that leaves */
+            different += count_different(&b, &picture.frame);
+    }
+    assert_int_equal(different, 0);
+    both_destroy(&b);
+    test_picture_destroy(&picture);
+}
+
 /** A wall of 2 x 2 at z = -2, and something half as large a metre behind it. */
 static void make_wall(void **state, test_scene *scene, test_picture *picture, uint32_t *out_wall, uint32_t *out_behind)
 {
@@ -294,6 +343,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_what_is_left_out_shows_nothing_whatever_moves),
+        cmocka_unit_test(test_meshes_far_from_their_own_origin_lose_nothing),
         cmocka_unit_test(test_what_a_wall_hides_is_not_drawn_and_shows_in_the_frame_in_which_the_wall_goes),
         cmocka_unit_test(test_what_comes_before_a_lamp_takes_its_light_from_the_picture),
         cmocka_unit_test(test_triangles_that_face_away_or_miss_all_pixels_are_not_drawn),
