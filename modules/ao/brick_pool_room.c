@@ -58,7 +58,7 @@ size_t brick_pool_write(brick_pool *pool, uint32_t id, nook_volume *volume, size
     assert(entry);
     size_t bricks = entry->bricks.count * sizeof(nook_brick), surfels = entry->surfels.count * sizeof(nook_surfel);
     size_t written = 0;
-    if (entry->written == 0)
+    if (entry->written == 0 && most > 0) /* once: after it something is written */
         for (uint32_t i = 0; i < entry->bricks.count; i++)
             volume->bricks[i].first_surfel += entry->surfels.first;
     if (entry->written < bricks)

@@ -294,9 +294,10 @@ static void write_bricks(brick_pool *pool, uint32_t id, uint32_t bricks, uint32_
     bool whole = false;
     assert_true(brick_pool_place(pool, id, &volume.info));
     assert_int_equal(brick_pool_flush(pool), NOOK_OK);
-    while (!whole) {
+    for (int frame = 0; !whole; frame++) {
+        size_t most = frame == 0 || frame == 2 ? 0 : 100; /* others may have had all of a frame */
         assert_null(brick_pool_find(pool, id));
-        assert_true(brick_pool_write(pool, id, &volume, 100, &whole) <= 100);
+        assert_true(brick_pool_write(pool, id, &volume, most, &whole) <= most);
     }
     nook_volume_free(&volume);
 }
@@ -309,6 +310,8 @@ static void test_surfels_come_in_parts_and_find_their_bricks_in_another_room(voi
     assert_true(brick_pool_bytes(&pool) == 60 * sizeof(nook_brick) + 100 * sizeof(nook_surfel));
     write_bricks(&pool, 9, 20, 7);
     write_bricks(&pool, 4, 15, 300);
+    expect_bricks(&pool, 9, 20, 7);
+    expect_bricks(&pool, 4, 15, 300);
     nook_volume large = bricks_of(20, 1);
     assert_false(brick_pool_place(&pool, 1, &large.info)); /* bricks would fit, surfels do not */
     nook_volume_free(&large);
