@@ -32,16 +32,16 @@ static uint32_t rows_of(uint32_t capacity)
     return nook_groups(capacity, GROUP);
 }
 
-/** Room for a share of the pixels, whole groups of it. */
-static uint32_t capacity_of(uint32_t pixels, double share)
+/** Room for a share of the pixels, whole groups of it; no more than a texture has rows. */
+static uint32_t capacity_of(const nook_gpu *gpu, uint32_t pixels, double share)
 {
-    uint32_t wanted = (uint32_t)ceil((double)pixels * share);
-    return rows_of(wanted) * GROUP;
+    uint32_t rows = rows_of((uint32_t)ceil((double)pixels * share));
+    return (rows < gpu->max_texture_size ? rows : gpu->max_texture_size) * GROUP;
 }
 
 nook_result ao_refine_fit(nook_gpu *gpu, ao_refine *refine, uint32_t width, uint32_t height, double share)
 {
-    uint32_t pixels = width * height, capacity = capacity_of(pixels, share);
+    uint32_t pixels = width * height, capacity = capacity_of(gpu, pixels, share);
     if (refine->pixels == pixels && refine->capacity == capacity)
         return NOOK_OK;
     ao_refine_release(gpu, refine);

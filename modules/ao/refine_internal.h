@@ -18,7 +18,7 @@ typedef struct ao_refine {
 
 /**
  * Makes the lists fit a picture; keeps them when they do.
- * @param share  of the pixels that are refined at most, in (0, 1]
+ * @param share  of the pixels that are refined at most, in (0, 1]; and no more than 64 * gpu->max_texture_size
  * @return NOOK_E_MEMORY
  */
 nook_result ao_refine_fit(nook_gpu *gpu, ao_refine *refine, uint32_t width, uint32_t height, double share);

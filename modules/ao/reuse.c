@@ -26,7 +26,7 @@ _Static_assert(offsetof(reuse_block, ray_scale) == 96 && sizeof(reuse_block) == 
 
 /** Head of the buffer of shaders/ao/tiles.glsl; its tiles follow. */
 typedef struct tiles_head {
-    uint32_t groups[3], padding;
+    uint32_t groups[3], count;
 } tiles_head;
 
 /** struct Tile. */
@@ -207,7 +207,7 @@ static void bind(const nook_ao *ao, const nook_ao_pass *pass)
 
 static nook_result dispatch(nook_ao *ao, const nook_ao_frame *frame, const nook_ao_pass *pass)
 {
-    static const tiles_head nothing = { .groups = { 0, 1, 1 } };
+    static const tiles_head nothing = { .groups = { 0, 0, 1 } };
     const ao_reuse *reuse = &ao->reuse;
     const reuse_block block = make_block(ao, frame, pass);
     nook_buffer_update(ao->gpu, reuse->block, 0, &block, sizeof block);
@@ -273,7 +273,7 @@ uint32_t ao_reuse_count_traced(const nook_ao *ao)
     if (!reuse->holds)
         return UINT32_MAX;
     nook_buffer_read(ao->gpu, reuse->tiles, 0, &head, sizeof head);
-    for (uint32_t i = 0; i < head.groups[0]; i++) {
+    for (uint32_t i = 0; i < head.count; i++) {
         tile_record tile;
         nook_buffer_read(ao->gpu, reuse->tiles, sizeof head + i * sizeof tile, &tile, sizeof tile);
         for (uint32_t bit = 0; bit < 64; bit++)

@@ -30,7 +30,7 @@ enum { TURNS_OF_SORTING = 5, TURNS_USUALLY = 128 };
 
 typedef struct volume_state {
     nook_direction_texture directions;
-    nook_buffer again; /**< Groups x, y, z of dispatches that do the work again: x is 0 until loops were ended. */
+    nook_buffer again; /**< Groups x, y, z of dispatches that do the work again: none until loops were ended. */
     volume_corners corners;
     volume_boxes boxes;
     nook_texture
@@ -109,10 +109,8 @@ typedef struct volume_task {
  */
 static nook_result trace(volume_state *s, const nook_ao_pass *pass, const volume_task *task)
 {
-    uint32_t all[2];
-    nook_ao_pass_groups(pass, TILE_SIZE, TILE_SIZE, all);
     const nook_buffer *groups = pass->listed ? pass->listed : pass->tiles;
-    const GLuint nothing[3] = { 0, groups ? 1 : all[1], 1 };
+    const GLuint nothing[3] = { 0, 0, 1 };
     volume_cut likely = volume_cut_likely(&task->usual), careful = volume_cut_careful(&task->most);
     likely.sure = likely.sure && task->usual.steps == task->most.steps;
     if (volume_cut_needs_image(&task->usual, &likely) || volume_cut_needs_image(&task->most, &careful)) {

@@ -5,6 +5,7 @@
 #include "ao/frame.glsl"
 
 const uint REFINE_GROUP = 64u; // invocations of a group, and texels of a row of what is traced
+const uint GROUPS_MAX = 65535u; // of a dispatch along x, that every device takes
 
 layout(std430, binding = 6) buffer Candidates {
     uint groups_x, groups_y, groups_z; // of a dispatch over them
@@ -33,6 +34,12 @@ ivec2 unpack_pixel(uint bits)
 ivec2 listed_place(uint i)
 {
     return ivec2(i % REFINE_GROUP, i / REFINE_GROUP);
+}
+
+// Candidates are gone through in strides: there may be more than a dispatch has invocations.
+uint stride()
+{
+    return gl_NumWorkGroups.x * REFINE_GROUP;
 }
 
 uint listed_count()

@@ -44,12 +44,12 @@ float found_around(ivec2 p, Guide guide)
 
 void main()
 {
-    uint i = gl_GlobalInvocationID.x;
-    if (i >= candidates.count)
-        return;
-    ivec2 p = unpack_pixel(candidates.pixels[i]);
-    vec3 position = full_ray(vec2(p)) * distance_at(p);
-    float found = bounded(found_around(p, make_guide(position, guide_normal(p, position))));
-    imageStore(visibility_out, p, vec4(found));
-    add_counts_of(p, 1);
+    for (uint i = gl_GlobalInvocationID.x; i < candidates.count; i += stride()) {
+        ivec2 p = unpack_pixel(candidates.pixels[i]);
+        vec3 position = full_ray(vec2(p)) * distance_at(p);
+        float found = bounded(found_around(p, make_guide(position, guide_normal(p, position))));
+        imageStore(visibility_out, p, vec4(found));
+        add_counts_of(p, 1);
+        fetches = outside = 0u;
+    }
 }

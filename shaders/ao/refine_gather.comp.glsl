@@ -13,14 +13,8 @@ bool is_chosen(ivec2 p)
     return candidates.count <= listed.capacity || float(hash(pack_pixel(p)) >> 8) * (1.0 / 16777216.0) < share;
 }
 
-void main()
+void list_pixel(ivec2 p)
 {
-    uint i = gl_GlobalInvocationID.x;
-    if (i >= candidates.count)
-        return;
-    ivec2 p = unpack_pixel(candidates.pixels[i]);
-    if (!is_chosen(p))
-        return;
     uint record = atomicAdd(listed.count, 1u);
     if (record >= listed.capacity)
         return;
@@ -31,4 +25,14 @@ void main()
         uvec4(pack_pixel(p), floatBitsToUint(depth), packUnorm2x16(nook_octahedral_encode(normal)), 0u);
     imageStore(visibility_out, p, vec4(-1.0 - float(record)));
     add_counts_of(p, 1);
+    fetches = 0u;
+}
+
+void main()
+{
+    for (uint i = gl_GlobalInvocationID.x; i < candidates.count; i += stride()) {
+        ivec2 p = unpack_pixel(candidates.pixels[i]);
+        if (is_chosen(p))
+            list_pixel(p);
+    }
 }

@@ -7,7 +7,7 @@
 uint reserve_candidates(uint wanted)
 {
     uint first = atomicAdd(candidates.count, wanted);
-    atomicMax(candidates.groups_x, (first + wanted + REFINE_GROUP - 1u) / REFINE_GROUP);
+    atomicMax(candidates.groups_x, min((first + wanted + REFINE_GROUP - 1u) / REFINE_GROUP, GROUPS_MAX));
     return first;
 }
 

@@ -23,7 +23,7 @@ layout(binding = 7) uniform usampler2D age_before;
 layout(binding = 0, r32f) uniform writeonly image2D visibility_image;
 layout(binding = 1, r8ui) uniform writeonly uimage2D age_image; // frames since it was traced
 layout(std430, binding = 3) buffer Tiles { // tiles.glsl
-    uint groups_x, groups_y, groups_z, padding;
+    uint groups_x, groups_y, groups_z, count;
     Tile tiles[];
 } left;
 shared uint listed_bits[2];
@@ -106,10 +106,13 @@ void list_pixels(bool traced)
     if (traced)
         atomicOr(listed_bits[own / 32u], 1u << (own % 32u));
     barrier();
-    if (own == 0u && (listed_bits[0] | listed_bits[1]) != 0u)
-        left.tiles[atomicAdd(left.groups_x, 1u)] =
-            Tile(uvec2(tile_first()), uvec2(listed_bits[0], listed_bits[1]),
-                       uintBitsToFloat(uvec2(tile_depth_min, tile_depth_max)), uvec2(0u));
+    if (own == 0u && (listed_bits[0] | listed_bits[1]) != 0u) {
+        uint number = atomicAdd(left.count, 1u);
+        atomicMax(left.groups_x, min(number + 1u, TILES_IN_ROW));
+        atomicMax(left.groups_y, number / TILES_IN_ROW + 1u);
+        left.tiles[number] = Tile(uvec2(tile_first()), uvec2(listed_bits[0], listed_bits[1]),
+                                  uintBitsToFloat(uvec2(tile_depth_min, tile_depth_max)), uvec2(0u));
+    }
 }
 
 void main()

@@ -43,7 +43,7 @@ bool tile_begin(float depth, vec3 position)
 #ifdef TILES
 vec2 tile_depths(float depth)
 {
-    return left.tiles[gl_WorkGroupID.x].depths;
+    return own_tile().depths;
 }
 #else
 shared uint tile_depth_min, tile_depth_max; // as bits: positive floats sort like integers

@@ -4,6 +4,7 @@
 #include "ao/frame.glsl"
 
 const int TILE_SIZE = 8;
+const uint TILES_IN_ROW = 65535u; // groups along x that every device takes; the list goes on in the next row
 
 struct Tile {
     uvec2 first, bits; // its first pixel; a bit for each pixel that is to be traced, by rows
@@ -13,14 +14,23 @@ struct Tile {
 
 #ifdef TILES
 layout(std430, binding = 3) readonly buffer Tiles { // struct tiles_head of modules/ao/reuse.c
-    uint groups_x, groups_y, groups_z, padding;
+    uint groups_x, groups_y, groups_z, count;
     Tile tiles[];
 } left;
+
+// This work group's; behind the last one of the list a tile without pixels.
+Tile own_tile()
+{
+    uint number = gl_WorkGroupID.y * TILES_IN_ROW + gl_WorkGroupID.x;
+    if (number >= left.count)
+        return Tile(uvec2(0u), uvec2(0u), vec2(0.0), uvec2(0u));
+    return left.tiles[number];
+}
 
 // Trace pixel of the tile's corner.
 ivec2 tile_first()
 {
-    return ivec2(left.tiles[gl_WorkGroupID.x].first);
+    return ivec2(own_tile().first);
 }
 
 // Place of the rank-th bit that is set, counted from 0. Bits by halves: without memory that is shared nobody has to wait.
@@ -42,7 +52,7 @@ int bit_place(uvec2 bits, int rank)
 // This invocation's pixel; one that is not wanted when there is none.
 ivec2 tile_pixel()
 {
-    Tile tile = left.tiles[gl_WorkGroupID.x];
+    Tile tile = own_tile();
     int own = int(gl_LocalInvocationIndex), place = bit_place(tile.bits, own);
     bool traces = own < bitCount(tile.bits.x) + bitCount(tile.bits.y);
     return traces ? ivec2(tile.first) + ivec2(place % TILE_SIZE, place / TILE_SIZE) : ivec2(-1);

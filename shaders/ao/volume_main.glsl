@@ -6,7 +6,7 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 0, r32f) uniform image2D visibility_image;
 #include "ao/point.glsl"
-// Groups of the dispatches that do everything again, carefully: x stays 0 unless loops were ended.
+// Groups of the dispatches that do everything again, carefully: none unless loops were ended.
 layout(std430, binding = 5) buffer Again {
     uint groups_x, groups_y, groups_z;
 } again;
@@ -49,8 +49,10 @@ void main()
             result = multiply_visibilities(result, depth > 0.0, point.position, normal, point.pixel);
         else
             result = sum_union(result, depth > 0.0, point.position, normal, point.pixel);
-        if (loops_were_ended())
+        if (loops_were_ended()) {
             again.groups_x = gl_NumWorkGroups.x;
+            again.groups_y = gl_NumWorkGroups.y;
+        }
     }
     if (is_last && !multiply)
         result = 1.0 - result / float(params.rays);

@@ -1,4 +1,5 @@
 /* ao.refine: pixels of the picture that no pixel of the trace stands for. */
+#include "modules/ao/refine_internal.h"
 #include "tests/support/ao_view.h"
 #include <math.h>
 #include <stdlib.h>
@@ -17,12 +18,6 @@ static const char *const upscales[] = { "stepped", "bilinear" }, *const scales[]
 static int setup(void **state)
 {
     *state = ao_view_create(WIDTH, HEIGHT);
-    return 0;
-}
-
-static int teardown(void **state)
-{
-    ao_view_destroy(*state);
     return 0;
 }
 
@@ -263,6 +258,18 @@ static void test_traced_is_around_for_a_technique_that_traces_no_list(void **sta
     assert_int_equal(statistics_of(view).refined, 0);
 }
 
+/* As of 4K: what a quarter of its pixels takes has more rows of 64 than a texture of many devices. */
+static void test_lists_of_large_pictures_are_cut_to_what_a_texture_holds(void **state)
+{
+    nook_fixture_view *view = *state;
+    const uint32_t most = view->gpu->max_texture_size, width = most / 4;
+    ao_refine refine = { .pixels = 0 };
+    assert_int_equal(ao_refine_fit(view->gpu, &refine, width, 512, 1.0), NOOK_OK);
+    assert_int_equal(refine.capacity, 64 * most);
+    assert_int_equal(refine.traced.height, most);
+    ao_refine_release(view->gpu, &refine);
+}
+
 static void test_screen_space_traces_lists_too(void **state)
 {
     static const char *const techniques[] = { "ssao", "hbao", "hsao", "gtao" };
@@ -290,7 +297,8 @@ int main(void)
         cmocka_unit_test(test_traced_pictures_are_the_same_bit_for_bit_also_where_there_are_too_many),
         cmocka_unit_test(test_traced_pixels_where_nothing_occludes_are_open),
         cmocka_unit_test(test_traced_is_around_for_a_technique_that_traces_no_list),
+        cmocka_unit_test(test_lists_of_large_pictures_are_cut_to_what_a_texture_holds),
         cmocka_unit_test(test_screen_space_traces_lists_too),
     };
-    return cmocka_run_group_tests(tests, setup, teardown);
+    return cmocka_run_group_tests(tests, setup, ao_view_teardown);
 }
