@@ -1,7 +1,8 @@
 #include "modules/ao/draw_state.h"
 
-static const GLenum switches[NOOK_DRAW_SWITCHES] = { GL_DEPTH_TEST,   GL_CULL_FACE,      GL_SCISSOR_TEST,  GL_BLEND,
-                                                     GL_STENCIL_TEST, GL_COLOR_LOGIC_OP, GL_CLIP_DISTANCE0 };
+static const GLenum switches[NOOK_DRAW_SWITCHES] = { GL_DEPTH_TEST,     GL_CULL_FACE,         GL_SCISSOR_TEST,
+                                                     GL_BLEND,          GL_STENCIL_TEST,      GL_COLOR_LOGIC_OP,
+                                                     GL_CLIP_DISTANCE0, GL_PRIMITIVE_RESTART, GL_RASTERIZER_DISCARD };
 
 static void keep(nook_gpu *gpu, nook_draw_state *kept)
 {

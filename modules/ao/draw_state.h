@@ -10,7 +10,7 @@
 extern "C" {
 #endif
 
-enum { NOOK_DRAW_SWITCHES = 7 };
+enum { NOOK_DRAW_SWITCHES = 9 };
 
 /** What a host had. Colours, blending and viewports of draw buffers and layers other than the first are neither kept nor used. */
 typedef struct nook_draw_state {

@@ -77,6 +77,10 @@ nook_result volume_boxes_draw(volume_boxes *boxes, const nook_ao_pass *pass, noo
         draw_cut(pass, work, cut);
     else
         draw_part(pass, 0, work->rays, 0, work->occluders);
+    if (pass->counting) /* fragments have added to an image and to storage, which anyone may read next */
+        pass->gpu->gl->MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT |
+                                     GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT |
+                                     GL_BUFFER_UPDATE_BARRIER_BIT);
     nook_draw_state_give_back(pass->gpu, &host);
     return NOOK_OK;
 }

@@ -312,8 +312,10 @@ static void test_fetches_are_counted_by_pixel_in_all_boxes_over_it(void **state)
 /** What a host has set for its own draws is there after a record, whatever it is, and does not change what is drawn. */
 static void test_the_hosts_state_neither_matters_nor_changes(void **state)
 {
-    static const GLenum switches[] = { GL_DEPTH_TEST, GL_CULL_FACE,    GL_SCISSOR_TEST,
-                                       GL_BLEND,      GL_STENCIL_TEST, GL_COLOR_LOGIC_OP };
+    static const GLenum switches[] = {
+        GL_DEPTH_TEST,   GL_CULL_FACE,      GL_SCISSOR_TEST,      GL_BLEND,
+        GL_STENCIL_TEST, GL_COLOR_LOGIC_OP, GL_PRIMITIVE_RESTART, GL_RASTERIZER_DISCARD
+    };
     static const GLenum names[] = { GL_BLEND_SRC_RGB,           GL_BLEND_DST_ALPHA,
                                     GL_BLEND_EQUATION_RGB,      GL_FRONT_FACE,
                                     GL_CULL_FACE_MODE,          GL_CLIP_ORIGIN,
@@ -383,12 +385,6 @@ static int setup(void **state)
     return 0;
 }
 
-static int teardown(void **state)
-{
-    ao_view_destroy(*state);
-    return 0;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -404,5 +400,5 @@ int main(void)
         cmocka_unit_test(test_fetches_are_counted_by_pixel_in_all_boxes_over_it),
         cmocka_unit_test(test_the_hosts_state_neither_matters_nor_changes),
     };
-    return cmocka_run_group_tests(tests, setup, teardown);
+    return cmocka_run_group_tests(tests, setup, ao_view_teardown);
 }
