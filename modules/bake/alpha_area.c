@@ -216,11 +216,17 @@ static void cut_blocks(const cutter *c, const nook_polygon *polygon)
     }
 }
 
+/* Of coordinates that are not finite nothing can be looked up: engine/core/alpha.h. */
+static bool is_finite(const nook_alpha_map *map)
+{
+    return isfinite(map->offset[0]) && isfinite(map->offset[1]);
+}
+
 void nook_alpha_cut(const nook_alpha_areas *areas, const nook_alpha_part *part, const nook_alpha_map *map,
                     const nook_polygon *polygon, nook_alpha_visit visit, void *user)
 {
     cutter c = { .map = map, .visit = visit, .user = user };
-    if (!part->texels) {
+    if (!part->texels || !is_finite(map)) {
         give(&c, polygon, nook_alpha_of_texel(part, UINT8_MAX));
         return;
     }
