@@ -51,12 +51,6 @@ static int setup(void **state)
     return 0;
 }
 
-static int teardown(void **state)
-{
-    ao_view_destroy(*state);
-    return 0;
-}
-
 /** Distances that cover the range; every seventh pixel sees nothing. */
 static double distance_of(uint32_t x, uint32_t y)
 {
@@ -326,5 +320,5 @@ int main(void)
         cmocka_unit_test(test_prepare_keeps_axis_normals_exact),
         cmocka_unit_test(test_prepare_and_upscaling_do_not_care_how_the_host_samples_its_textures),
     };
-    return cmocka_run_group_tests(tests, setup, teardown);
+    return cmocka_run_group_tests(tests, setup, ao_view_teardown);
 }

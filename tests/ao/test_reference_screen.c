@@ -19,12 +19,6 @@ static int setup(void **state)
     return 0;
 }
 
-static int teardown(void **state)
-{
-    ao_view_destroy(*state);
-    return 0;
-}
-
 /** Nothing drawn yet, and a camera. */
 static nook_fixture_view *look(void **state, const double eye[3], const double target[3], const char *r_max)
 {
@@ -295,5 +289,5 @@ int main(void)
         cmocka_unit_test(test_pictures_without_a_square_or_without_geometry_are_open),
         cmocka_unit_test(test_rubbish_in_the_depth_buffer_gives_visibility_in_its_range),
     };
-    return cmocka_run_group_tests(tests, setup, teardown);
+    return cmocka_run_group_tests(tests, setup, ao_view_teardown);
 }

@@ -19,12 +19,6 @@ static int setup(void **state)
     return 0;
 }
 
-static int teardown(void **state)
-{
-    ao_view_destroy(*state);
-    return 0;
-}
-
 /** Nothing drawn yet; a camera; enough samples that noise does not matter. */
 static nook_fixture_view *look(void **state, const double eye[3], const double target[3], double angle, double r_max)
 {
@@ -187,5 +181,5 @@ int main(void)
         cmocka_unit_test(test_hsao_means_the_same_with_more_samples_than_one_dispatch_holds),
         cmocka_unit_test(test_hsao_is_the_same_in_a_flipped_projection),
     };
-    return cmocka_run_group_tests(tests, setup, teardown);
+    return cmocka_run_group_tests(tests, setup, ao_view_teardown);
 }

@@ -21,12 +21,6 @@ static int setup(void **state)
     return 0;
 }
 
-static int teardown(void **state)
-{
-    ao_view_destroy(*state);
-    return 0;
-}
-
 static nook_ao *context(void **state)
 {
     return ((nook_fixture_view *)*state)->ao;
@@ -450,5 +444,5 @@ int main(void)
         cmocka_unit_test(test_context_refuses_damaged_volumes),
         cmocka_unit_test(test_context_refuses_meshes_that_are_none),
     };
-    return cmocka_run_group_tests(tests, setup, teardown);
+    return cmocka_run_group_tests(tests, setup, ao_view_teardown);
 }

@@ -34,12 +34,6 @@ static int setup(void **state)
     return 0;
 }
 
-static int teardown(void **state)
-{
-    ao_view_destroy(*state);
-    return 0;
-}
-
 static void count(nook_fixture_view *view, const char *technique, uint32_t what, uint32_t out[PIXELS])
 {
     nook_texture image;
@@ -160,5 +154,5 @@ int main(void)
         cmocka_unit_test(test_coarser_traces_share_their_steps_out_and_filters_take_none),
         cmocka_unit_test(test_techniques_that_follow_no_rays_take_no_steps),
     };
-    return cmocka_run_group_tests(tests, setup, teardown);
+    return cmocka_run_group_tests(tests, setup, ao_view_teardown);
 }
