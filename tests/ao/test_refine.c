@@ -233,6 +233,41 @@ static void test_traced_pictures_are_the_same_bit_for_bit_also_where_there_are_t
     assert_true(refined[1] <= (uint32_t)(0.05 * PIXELS) + 64);
 }
 
+/** By two rays a pixel. */
+static void record_few(nook_fixture_view *view, const char *scale, const char *filter, const char *refine, float *out)
+{
+    ao_view_param(view, "volume.rays", "2");
+    ao_view_param(view, "ao.scale", scale);
+    ao_view_param(view, "ao.filter", filter);
+    ao_view_param(view, "ao.refine", refine);
+    ao_view_record(view, "volume");
+    memcpy(out, view->visibility, PIXELS * sizeof *out);
+}
+
+static void test_traced_pixels_are_averaged_over_their_like(void **state)
+{
+    float many[PIXELS], few[PIXELS], around[PIXELS], traced[PIXELS];
+    double error = 0.0, unfiltered = 0.0;
+    uint32_t refined = 0;
+    nook_fixture_view *view = start(state, "full", "stepped", "off");
+    build_posts(view, 64);
+    record_posts(view, "binary", "compute", many);
+    record_few(view, "full", "none", "off", few);
+    record_few(view, "quarter", "tile", "around", around);
+    record_few(view, "quarter", "tile", "traced", traced);
+    for (uint32_t i = 0; i < PIXELS; i++) {
+        if (traced[i] == around[i])
+            continue;
+        error += pow((double)traced[i] - (double)many[i], 2.0);
+        unfiltered += pow((double)few[i] - (double)many[i], 2.0);
+        refined++;
+    }
+    assert_true(refined > 100);
+    if (!(sqrt(error) < 0.75 * sqrt(unfiltered)))
+        fail_msg("off by %.4f over %u pixels, where the rays themselves are by %.4f", sqrt(error / refined), refined,
+                 sqrt(unfiltered / refined));
+}
+
 static void test_traced_pixels_where_nothing_occludes_are_open(void **state)
 {
     nook_fixture_view *view = start(state, "quarter", "bilinear", "traced");
@@ -295,6 +330,7 @@ int main(void)
         cmocka_unit_test(test_around_of_a_part_is_bit_for_bit_that_of_the_whole_picture),
         cmocka_unit_test(test_traced_pixels_come_to_the_full_resolution_with_every_kind_and_path),
         cmocka_unit_test(test_traced_pictures_are_the_same_bit_for_bit_also_where_there_are_too_many),
+        cmocka_unit_test(test_traced_pixels_are_averaged_over_their_like),
         cmocka_unit_test(test_traced_pixels_where_nothing_occludes_are_open),
         cmocka_unit_test(test_traced_is_around_for_a_technique_that_traces_no_list),
         cmocka_unit_test(test_lists_of_large_pictures_are_cut_to_what_a_texture_holds),

@@ -266,6 +266,54 @@ static void test_bodies_that_come_go_or_change_places_leave_nothing_behind(void 
     expect_as_without(r, "in the first order");
 }
 
+/** One of two boxes, in the same grid: of what is told of the volume nothing changes. */
+static void voxelize(const room *r, nook_ao_volume volume, const nook_buffer buffers[2], uint32_t box)
+{
+    const nook_ao_triangle_range range = { 36 * box, 36, 0 };
+    nook_ao_live_part part = { .ranges = &range, .range_count = 1 };
+    memcpy(part.volume_from_part, nook_matrix_identity().m, sizeof part.volume_from_part);
+    const nook_ao_live_mesh mesh = { .vertex_buffer = buffers[0].id,
+                                     .vertex_stride = 3 * sizeof(float),
+                                     .index_buffer = buffers[1].id,
+                                     .parts = &part,
+                                     .part_count = 1,
+                                     .box_min = { -0.9f, -0.9f, 0.0f },
+                                     .box_max = { 0.9f, 0.9f, 0.4f },
+                                     .voxel_size = 0.1 };
+    assert_int_equal(nook_ao_voxelize(r->view->ao, volume, &mesh), NOOK_OK);
+}
+
+static void test_a_volume_that_is_voxelised_anew_leaves_nothing_behind(void **state)
+{
+    room *r = *state;
+    nook_gpu *gpu = r->view->gpu;
+    nook_fixture_mesh boxes = { 0 };
+    nook_buffer buffers[2];
+    nook_ao_volume volume;
+    nook_fixture_add_box(&boxes, (double[]){ -0.9, -0.9, 0.0 }, (double[]){ -0.6, -0.6, 0.4 }, 63);
+    nook_fixture_add_box(&boxes, (double[]){ 0.3, 0.5, 0.0 }, (double[]){ 0.7, 0.9, 0.4 }, 63);
+    assert_int_equal(boxes.index_count, 72);
+    assert_int_equal(nook_buffer_create(gpu, boxes.positions, boxes.vertex_count * 3 * sizeof(float), &buffers[0]),
+                     NOOK_OK);
+    assert_int_equal(nook_buffer_create(gpu, boxes.indices, boxes.index_count * sizeof(uint32_t), &buffers[1]),
+                     NOOK_OK);
+    nook_fixture_mesh_free(&boxes);
+    assert_int_equal(nook_ao_add_live_volume(r->view->ao, "live", (const uint32_t[]){ 24, 24, 10 }, &volume), NOOK_OK);
+    r->view->occluders[MESHES] = r->view->occluders[0];
+    r->view->occluders[MESHES].volume = volume;
+    r->view->occluder_count = MESHES + 1;
+    set_reuse(r, PERIOD);
+    for (uint32_t turn = 0; turn < 3; turn++) {
+        voxelize(r, volume, buffers, turn % 2);
+        expect_as_without(r, "made anew");
+        warm_up(r);
+    }
+    r->view->occluder_count = MESHES;
+    nook_ao_remove_volume(r->view->ao, volume);
+    for (int i = 0; i < 2; i++)
+        nook_buffer_destroy(gpu, &buffers[i]);
+}
+
 static void test_surfaces_that_move_without_a_volume_take_over_nothing_of_what_was_there_before(void **state)
 {
     room *r = *state;
@@ -352,6 +400,31 @@ static void test_nothing_of_the_old_picture_is_there_after_a_cut_of_the_camera(v
     view->occluder_count = MESHES;
     look(r, 0.0, 0.0);
     draw(r);
+}
+
+/** A pixel of before then stands for 5 x 5, of which those are too far from it that lie more than one away: 16 of 25. */
+static void test_coming_close_does_not_spread_a_pixel_over_many(void **state)
+{
+    room *r = *state;
+    set_reuse(r, 8);
+    ao_view_param(r->view, "ao.scale", "full");
+    r->view->view_from_world =
+        nook_matrix_look_at((double[]){ -7.9, -10.0, 6.7 }, (double[]){ 0.1, 0, 0.2 }, (double[]){ 0, 0, 1 });
+    draw(r);
+    warm_up(r);
+    look(r, 0.0, 0.0);
+    draw(r);
+    ao_view_record(r->view, "volume");
+    uint32_t close = traced(r);
+    r->view->index = 3; /* all of it, to know how many there are */
+    ao_view_param(r->view, "volume.rays", "3");
+    ao_view_record(r->view, "volume");
+    uint32_t all = traced(r);
+    r->view->index = 0;
+    ao_view_param(r->view, "volume.rays", "2");
+    ao_view_param(r->view, "ao.scale", "half");
+    if (!(all < UINT32_MAX && close < all && close > 0.5 * all))
+        fail_msg("%u of %u pixels are traced", close, all);
 }
 
 static void test_another_size_takes_nothing_over(void **state)
@@ -473,10 +546,12 @@ int main(void)
         cmocka_unit_test(test_after_a_body_has_moved_the_picture_is_that_of_a_frame_without_reuse),
         cmocka_unit_test(test_only_what_is_near_a_body_that_moves_is_traced_out_of_turn),
         cmocka_unit_test(test_bodies_that_come_go_or_change_places_leave_nothing_behind),
+        cmocka_unit_test(test_a_volume_that_is_voxelised_anew_leaves_nothing_behind),
         cmocka_unit_test(test_surfaces_that_move_without_a_volume_take_over_nothing_of_what_was_there_before),
         cmocka_unit_test(test_every_pixel_is_traced_anew_within_as_many_frames_as_said),
         cmocka_unit_test(test_other_parameters_take_nothing_over),
         cmocka_unit_test(test_nothing_of_the_old_picture_is_there_after_a_cut_of_the_camera),
+        cmocka_unit_test(test_coming_close_does_not_spread_a_pixel_over_many),
         cmocka_unit_test(test_another_size_takes_nothing_over),
         cmocka_unit_test(test_parts_take_nothing_over_and_nothing_is_taken_over_from_them),
         cmocka_unit_test(test_walking_costs_less_and_its_error_is_at_most_a_fifth_larger),

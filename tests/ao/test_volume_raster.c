@@ -191,10 +191,14 @@ static void test_the_camera_may_stand_anywhere(void **state)
     }
 }
 
+/** From outside of all boxes, and from within the floor's, of which only back faces are before the camera. */
 static void test_projections_that_are_flipped_or_off_centre_draw_the_same(void **state)
 {
-    for (int way = 0; way < 3; way++) {
+    for (int turn = 0; turn < 6; turn++) {
+        const int way = turn / 2;
         nook_fixture_view *view = prepare(state, &scenes[0]);
+        if (turn % 2)
+            look(view, (double[]){ 0.2, -0.9, 0.3 }, (double[]){ 0, 1, 0.1 }, 0.9);
         const nook_fixture_projection projection = { .fov_y_radians = 0.9,
                                                      .aspect = 1.5,
                                                      .z_near = 0.1,

@@ -162,6 +162,8 @@ static void test_another_texture_changes_what_it_lies_on(void **state)
     memcpy(after->texels, before->texels, sizeof after->texels);
     after->uvs[3][0] += 0.25f; /* on what is opaque */
     assert_int_equal(rebake(before, after), 0);
+    after->uvs[50 * (CELLS + 1) + 33][0] += 0.25f; /* on the mask */
+    assert_in_range(rebake(before, after), 1, 12);
     after->alphas.part_count = 0;
     assert_int_equal(rebake(before, after), bricks);
     free(before);
