@@ -133,6 +133,9 @@ nook_result nook_volumes_collect(const nook_scene *scene, const nook_volumes_des
 nook_result nook_volumes_bake(const nook_scene *scene, const nook_volumes_desc *desc, nook_scene_volumes *out);
 /** Whether blended triangles are in volumes of a kind; the others would make glass as dark as a wall. */
 bool nook_volumes_holds_blended(nook_volume_kind kind);
+/** What a kind is made of. @param out_triangles  of the volume; none: there is nothing to bake @param out_alphas  of them */
+void nook_volumes_select(const nook_scene_volume *volume, nook_volume_kind kind, nook_triangles *out_triangles,
+                         nook_alphas *out_alphas);
 /** Of all its triangles, blended ones too. */
 size_t nook_scene_volume_index_count(const nook_scene_volume *volume);
 /** The first kind that a volume was baked in. @return NULL for none */

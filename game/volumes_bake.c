@@ -26,9 +26,8 @@ bool nook_volumes_holds_blended(nook_volume_kind kind)
     return kind == NOOK_VOLUME_DENSITY || kind == NOOK_VOLUME_SURFEL;
 }
 
-/* What a kind is made of. @param out_triangles  of the volume; none: there is nothing to bake @param out_alphas  of them */
-static void select_triangles(const nook_scene_volume *volume, nook_volume_kind kind, nook_triangles *out_triangles,
-                             nook_alphas *out_alphas)
+void nook_volumes_select(const nook_scene_volume *volume, nook_volume_kind kind, nook_triangles *out_triangles,
+                         nook_alphas *out_alphas)
 {
     *out_triangles = (nook_triangles){ .positions = volume->positions,
                                        .vertex_count = volume->vertex_count,
@@ -54,26 +53,6 @@ static const nook_scene_volume *find_before(const nook_volumes_desc *desc, const
     return before->volumes[place].resolution == volume->resolution ? &before->volumes[place] : NULL;
 }
 
-static nook_result bake_kind(const nook_volumes_desc *desc, nook_scene_volume *volume, uint32_t place,
-                             nook_volume_kind kind, bool *warned)
-{
-    nook_triangles triangles, triangles_before;
-    nook_alphas alphas, alphas_before;
-    const nook_scene_volume *before = find_before(desc, volume, place);
-    select_triangles(volume, kind, &triangles, &alphas);
-    select_triangles(before ? before : volume, kind, &triangles_before, &alphas_before);
-    if (triangles.index_count == 0)
-        return NOOK_OK;
-    const nook_voxelize_desc how = {
-        .resolution = volume->resolution, .threads = desc->threads, .kind = kind, .alphas = &alphas
-    };
-    const nook_bake_before older = { &triangles_before, &alphas_before };
-    nook_bake *bake = &volume->bakes[kind];
-    nook_result result = nook_bake_cached_again(desc->cache_dir, volume->name, &triangles, &how,
-                                                before && triangles_before.index_count ? &older : NULL, bake);
-    return result == NOOK_OK ? check_kept(desc, bake, warned) : result;
-}
-
 /* Where a bake that is in the cache lies. Without memory it is not streamed. */
 static void add_level(const nook_volumes_desc *desc, double r_max, const nook_bake *bake, nook_scene_volume *volume)
 {
@@ -89,32 +68,62 @@ static void add_level(const nook_volumes_desc *desc, double r_max, const nook_ba
         volume->level_count++;
 }
 
-/* All levels of a kind that was baked, the finest first. */
-static nook_result bake_levels(const nook_volumes_desc *desc, double r_max, nook_volume_kind kind,
-                               nook_scene_volume *volume)
+/* Those that are streamed, the finest among them; else that alone. @return bits 1 << level */
+static uint32_t levels_of(const nook_volumes_desc *desc, const nook_scene_volume *volume)
 {
-    const nook_bake *finest = &volume->bakes[kind];
-    nook_triangles triangles;
-    nook_alphas alphas;
-    nook_result result = NOOK_OK;
-    if (!desc->streams || !desc->cache_dir || !finest->bytes || finest->keep_error != 0)
-        return NOOK_OK;
-    add_level(desc, r_max, finest, volume);
-    select_triangles(volume, kind, &triangles, &alphas);
-    for (int i = 1; i < NOOK_VOLUMES_LEVELS_MAX && result == NOOK_OK; i++) {
-        nook_bake bake = { .bytes = NULL };
-        uint32_t resolution = volume->resolution >> i;
-        if (resolution < NOOK_VOLUMES_BODY_RESOLUTION_MIN)
-            break;
-        const nook_voxelize_desc how = {
-            .resolution = resolution, .threads = desc->threads, .kind = kind, .alphas = &alphas
-        };
-        result = nook_bake_cached(desc->cache_dir, volume->name, &triangles, &how, &bake);
-        if (result == NOOK_OK && bake.keep_error == 0)
-            add_level(desc, r_max, &bake, volume);
-        nook_bake_free(&bake);
+    uint32_t levels = 1;
+    for (uint32_t level = 1; desc->streams && desc->cache_dir && level < NOOK_VOLUMES_LEVELS_MAX; level++)
+        if (nook_voxelize_level_resolution(volume->resolution, level) >= NOOK_VOLUMES_BODY_RESOLUTION_MIN)
+            levels |= 1u << level;
+    return levels;
+}
+
+/* Keeps the finest, and where all of them lie if they are streamed. */
+static void take_levels(const nook_volumes_desc *desc, double r_max, nook_volume_kind kind, nook_bake *bakes,
+                        nook_scene_volume *volume)
+{
+    volume->bakes[kind] = bakes[0];
+    for (uint32_t level = 0; level < NOOK_VOXELIZE_LEVELS; level++) {
+        if (desc->streams && desc->cache_dir && bakes[0].keep_error == 0 && bakes[level].bytes &&
+            bakes[level].keep_error == 0)
+            add_level(desc, r_max, &bakes[level], volume);
+        if (level > 0)
+            nook_bake_free(&bakes[level]);
     }
-    return result;
+}
+
+/* Of an edited mesh the finest level is made of what it was; else all are made at once. */
+static nook_result bake_kind(const nook_volumes_desc *desc, double r_max, nook_scene_volume *volume, uint32_t place,
+                             nook_volume_kind kind, bool *warned)
+{
+    nook_triangles triangles, triangles_before;
+    nook_alphas alphas, alphas_before;
+    const nook_scene_volume *before = find_before(desc, volume, place);
+    nook_volumes_select(volume, kind, &triangles, &alphas);
+    nook_volumes_select(before ? before : volume, kind, &triangles_before, &alphas_before);
+    if (triangles.index_count == 0)
+        return NOOK_OK;
+    const nook_voxelize_desc how = {
+        .resolution = volume->resolution, .threads = desc->threads, .kind = kind, .alphas = &alphas
+    };
+    const nook_bake_before older = { &triangles_before, &alphas_before };
+    const bool edited = before && triangles_before.index_count;
+    nook_bake bakes[NOOK_VOXELIZE_LEVELS] = { { .bytes = NULL } };
+    uint32_t levels = levels_of(desc, volume);
+    nook_result result = NOOK_OK;
+    if (edited || levels == 1) {
+        result =
+            nook_bake_cached_again(desc->cache_dir, volume->name, &triangles, &how, edited ? &older : NULL, &bakes[0]);
+        levels &= ~1u;
+    }
+    if (result == NOOK_OK && levels)
+        result = nook_bake_cached_levels(desc->cache_dir, volume->name, &triangles, &how, levels, bakes);
+    if (result != NOOK_OK) {
+        nook_bake_free(&bakes[0]);
+        return result;
+    }
+    take_levels(desc, r_max, kind, bakes, volume);
+    return check_kept(desc, &volume->bakes[kind], warned);
 }
 
 static void set_scales(nook_scene_volumes *volumes)
@@ -133,11 +142,8 @@ static nook_result bake_all(const nook_volumes_desc *desc, nook_scene_volumes *v
         nook_scene_volume *volume = &volumes->volumes[i];
         nook_result result = NOOK_OK;
         for (int kind = 0; kind < NOOK_VOLUME_KINDS && volume->resolution > 0 && result == NOOK_OK; kind++)
-            if (volumes->kinds & NOOK_VOLUME_BIT(kind)) {
-                result = bake_kind(desc, volume, i, (nook_volume_kind)kind, &warned);
-                if (result == NOOK_OK)
-                    result = bake_levels(desc, volumes->r_max, (nook_volume_kind)kind, volume);
-            }
+            if (volumes->kinds & NOOK_VOLUME_BIT(kind))
+                result = bake_kind(desc, volumes->r_max, volume, i, (nook_volume_kind)kind, &warned);
         if (result != NOOK_OK)
             return result;
         if (desc->progress)

@@ -12,7 +12,7 @@
 #include <string.h>
 #include <sys/resource.h>
 
-enum { LEVELS = 4, MIB = 1 << 20 };
+enum { LEVELS = NOOK_VOXELIZE_LEVELS, MIB = 1 << 20 };
 static const uint32_t levels[LEVELS] = { 64, 128, 256, 512 };
 
 typedef struct bake_options {
@@ -181,6 +181,32 @@ static nook_result time_level(const bake_options *options, const bake_mesh *mesh
     return result;
 }
 
+/* All of them from one pass, those beside the finest from its sums; the finest is held against the one baked alone. */
+static nook_result time_pass(const bake_options *options, const bake_mesh *mesh, const bake_row *rows)
+{
+    const nook_triangles triangles = { mesh->positions, 0, mesh->vertex_count, mesh->indices, mesh->index_count };
+    const nook_voxelize_desc desc = describe(options, levels[LEVELS - 1]);
+    nook_volume volumes[NOOK_VOXELIZE_LEVELS];
+    double alone = 0.0, resident = resident_mib(), peak = peak_mib(), start = nook_clock_cpu_ms();
+    nook_result result = nook_voxelize_levels(&triangles, &desc, (1u << LEVELS) - 1, volumes);
+    double ms = nook_clock_cpu_ms() - start;
+    if (result != NOOK_OK)
+        return result;
+    for (int i = 0; i < LEVELS; i++)
+        alone += rows[i].ms;
+    printf("  all %d from one pass: %.0f ms, %.2f of the sum of each alone; surfels", LEVELS, ms, ms / alone);
+    for (int i = LEVELS - 1; i >= 0; i--)
+        printf(" %llu", (unsigned long long)volumes[i].info.occupied);
+    if (peak_mib() > peak)
+        printf("; %.0f MiB", peak_mib() - resident);
+    printf("\n");
+    if (!same_surfels(&volumes[0], &rows[LEVELS - 1].volume))
+        result = nook_fail(NOOK_E_FORMAT, "bench: the finest of several levels differs from itself alone");
+    for (int i = 0; i < LEVELS; i++)
+        nook_volume_free(&volumes[i]);
+    return result;
+}
+
 static nook_result time_levels(const bake_options *options, const bake_mesh *mesh, bake_row *rows)
 {
     nook_result result = NOOK_OK;
@@ -194,7 +220,7 @@ static nook_result time_levels(const bake_options *options, const bake_mesh *mes
         printf("  %10u %10llu %10.0f %10.0f %10.0f %10zu\n", levels[i],
                (unsigned long long)rows[i].volume.info.occupied, rows[i].ms, rows[i].mib, rows[i].again_ms,
                rows[i].bricks);
-    return result;
+    return result == NOOK_OK ? time_pass(options, mesh, rows) : result;
 }
 
 static nook_result run(const bake_options *options)

@@ -1,4 +1,5 @@
 #include "modules/bake/brick_grid.h"
+#include <stdbool.h>
 
 void nook_brick_counts(const nook_volume_info *info, uint32_t out_counts[3])
 {
@@ -26,38 +27,60 @@ static uint32_t count_bits(uint32_t word)
     return ((word + (word >> 4)) & 0x0f0f0f0fu) * 0x01010101u >> 24;
 }
 
-/* The least of a brick's own distance and one more than those of its neighbours before it (way 1) or behind it (way -1). */
-static void relax(nook_brick *bricks, const uint32_t counts[3], size_t index, const uint32_t at[3], int way)
+enum { NEIGHBOURS = 13 }; /* the half of 26 that comes before the middle */
+
+/* One more than the least of the neighbours of a brick, but no more than it has. @param offset  to them */
+static uint32_t least_of(const nook_brick *brick, const ptrdiff_t *offset, int count)
 {
-    uint32_t least = bricks[index].skip;
-    for (int neighbour = 0; neighbour < 13; neighbour++) { /* the half of 27 that comes before the middle */
-        int step[3] = { neighbour % 3 - 1, neighbour / 3 % 3 - 1, neighbour / 9 - 1 };
-        size_t other = 0;
-        int inside = 1;
+    uint32_t least = brick->skip;
+    for (int i = 0; i < count; i++)
+        least = brick[offset[i]].skip + 1 < least ? brick[offset[i]].skip + 1 : least;
+    return least;
+}
+
+/* Those of the neighbours before a brick (way 1) or behind it (way -1) that are in the grid. @return how many */
+static int find_neighbours(const uint32_t counts[3], const uint32_t at[3], int way, ptrdiff_t *out)
+{
+    int found = 0;
+    for (int neighbour = 0; neighbour < NEIGHBOURS; neighbour++) {
+        const int step[3] = { neighbour % 3 - 1, neighbour / 3 % 3 - 1, neighbour / 9 - 1 };
+        ptrdiff_t offset = 0;
+        bool inside = true;
         for (int axis = 2; axis >= 0; axis--) {
             int64_t place = (int64_t)at[axis] + way * step[axis];
             inside = inside && place >= 0 && place < counts[axis];
-            other = other * counts[axis] + (size_t)(inside ? place : 0);
+            offset = offset * (ptrdiff_t)counts[axis] + way * step[axis];
         }
-        if (inside && bricks[other].skip + 1 < least)
-            least = bricks[other].skip + 1;
+        if (inside)
+            out[found++] = offset;
     }
-    bricks[index].skip = least;
+    return found;
+}
+
+/* One row along x. Within it, but for its ends, all bricks have the same neighbours. */
+static void relax_row(nook_brick *row, const uint32_t counts[3], uint32_t y, uint32_t z, int way)
+{
+    const uint32_t last = counts[0] - 1, middle[3] = { 1, y, z };
+    ptrdiff_t inner[NEIGHBOURS], end[NEIGHBOURS];
+    int inner_count = last > 1 ? find_neighbours(counts, middle, way, inner) : 0;
+    for (uint32_t i = 0; i <= last; i++) {
+        const uint32_t x = way > 0 ? i : last - i, at[3] = { x, y, z };
+        if (row[x].skip == 0)
+            continue;
+        if (x > 0 && x < last)
+            row[x].skip = least_of(&row[x], inner, inner_count);
+        else
+            row[x].skip = least_of(&row[x], end, find_neighbours(counts, at, way, end));
+    }
 }
 
 /* Chebyshev distances in two passes over the 26 neighbours, which is exact (Rosenfeld, Pfaltz 1968). */
 static void find_skips(nook_brick *bricks, const uint32_t counts[3])
 {
-    size_t total = (size_t)counts[0] * counts[1] * counts[2];
-    for (size_t pass = 0; pass < 2; pass++) {
-        for (size_t i = 0; i < total; i++) {
-            size_t index = pass ? total - 1 - i : i;
-            if (bricks[index].skip == 0)
-                continue;
-            const uint32_t at[3] = { (uint32_t)(index % counts[0]), (uint32_t)(index / counts[0] % counts[1]),
-                                     (uint32_t)(index / counts[0] / counts[1]) };
-            relax(bricks, counts, index, at, pass ? -1 : 1);
-        }
+    const uint32_t rows = counts[1] * counts[2];
+    for (uint32_t i = 0; i < 2 * rows; i++) {
+        const uint32_t row = i < rows ? i : 2 * rows - 1 - i;
+        relax_row(bricks + (size_t)row * counts[0], counts, row % counts[1], row / counts[1], i < rows ? 1 : -1);
     }
 }
 

@@ -91,6 +91,16 @@ static nook_result voxelize(const char *cache_dir, const char *name, const nook_
     return result;
 }
 
+static nook_result encode(const nook_volume *volume, nook_bake *out_bake)
+{
+    void *bytes;
+    size_t size;
+    nook_result result = nook_volume_encode(volume, &bytes, &size);
+    if (result == NOOK_OK)
+        *out_bake = (nook_bake){ .bytes = bytes, .size = size, .info = volume->info };
+    return result;
+}
+
 static nook_result bake_now(const char *cache_dir, const char *name, const nook_triangles *triangles,
                             const nook_voxelize_desc *desc, const nook_bake_before *before, nook_bake *out_bake)
 {
@@ -99,11 +109,9 @@ static nook_result bake_now(const char *cache_dir, const char *name, const nook_
     nook_result result = voxelize(cache_dir, name, triangles, desc, cache_dir ? before : NULL, &volume, &bricks);
     if (result != NOOK_OK)
         return result;
-    void *bytes;
-    size_t size;
-    result = nook_volume_encode(&volume, &bytes, &size);
+    result = encode(&volume, out_bake);
     if (result == NOOK_OK)
-        *out_bake = (nook_bake){ .bytes = bytes, .size = size, .info = volume.info, .bricks = bricks };
+        out_bake->bricks = bricks;
     nook_volume_free(&volume);
     return result;
 }
@@ -156,4 +164,93 @@ nook_result nook_bake_cached_again(const char *cache_dir, const char *name, cons
     }
     *out_bake = bake;
     return NOOK_OK;
+}
+
+/* ---- Levels ----------------------------------------------------------------------------------------------------- */
+
+static nook_voxelize_desc level_of(const nook_voxelize_desc *desc, uint32_t level)
+{
+    nook_voxelize_desc of_level = *desc;
+    bool merges = desc->kind == NOOK_VOLUME_SURFEL;
+    of_level.level = merges ? level : 0;
+    of_level.resolution = merges ? desc->resolution : nook_voxelize_level_resolution(desc->resolution, level);
+    return of_level;
+}
+
+/* Makes levels of surfels and keeps them. @return what is made in out_bakes also when it fails */
+static nook_result make_levels(const char *cache_dir, const nook_triangles *triangles, const nook_voxelize_desc *desc,
+                               uint32_t levels, nook_bake *out_bakes)
+{
+    nook_volume volumes[NOOK_VOXELIZE_LEVELS];
+    double start = nook_clock_ms();
+    nook_result result = nook_voxelize_levels(triangles, desc, levels, volumes);
+    if (result != NOOK_OK)
+        return result;
+    for (uint32_t level = 0; level < NOOK_VOXELIZE_LEVELS; level++) {
+        char path[PATH_CAPACITY];
+        nook_bake *bake = &out_bakes[level];
+        if (!(levels >> level & 1))
+            continue;
+        if (result == NOOK_OK)
+            result = encode(&volumes[level], bake);
+        nook_volume_free(&volumes[level]);
+        if (result != NOOK_OK)
+            continue;
+        bake->ms = nook_clock_ms() - start; /* the first one's with the pass */
+        if (cache_dir) {
+            nook_bake_path(cache_dir, bake->info.content_hash, path, sizeof path);
+            bake->keep_error = write_cached(cache_dir, path, bake);
+        }
+        start = nook_clock_ms();
+    }
+    return result;
+}
+
+/* What the cache has of levels of surfels. @return bits of those that it lacks */
+static uint32_t read_levels(const char *cache_dir, const char *name, const nook_triangles *triangles,
+                            const nook_voxelize_desc *desc, uint32_t levels, nook_bake *out_bakes)
+{
+    uint32_t missing = levels;
+    for (uint32_t level = 0; cache_dir && level < NOOK_VOXELIZE_LEVELS; level++) {
+        char path[PATH_CAPACITY];
+        double start = nook_clock_ms();
+        const nook_voxelize_desc of_level = level_of(desc, level);
+        if (!(levels >> level & 1))
+            continue;
+        uint64_t hash = nook_voxelize_hash(triangles, &of_level);
+        nook_bake_path(cache_dir, hash, path, sizeof path);
+        if (read_cached(path, name, hash, &out_bakes[level])) {
+            out_bakes[level].ms = nook_clock_ms() - start;
+            missing &= ~(1u << level);
+        }
+    }
+    return missing;
+}
+
+nook_result nook_bake_cached_levels(const char *cache_dir, const char *name, const nook_triangles *triangles,
+                                    const nook_voxelize_desc *desc, uint32_t levels, nook_bake *out_bakes)
+{
+    nook_bake bakes[NOOK_VOXELIZE_LEVELS] = { { .bytes = NULL } };
+    nook_result result = check_arguments(triangles);
+    if (result == NOOK_OK && (levels == 0 || levels >> NOOK_VOXELIZE_LEVELS))
+        result =
+            nook_fail(NOOK_E_RANGE, "bake: levels %#x; there are 0 to %d, as bits", levels, NOOK_VOXELIZE_LEVELS - 1);
+    if (result == NOOK_OK && desc->kind == NOOK_VOLUME_SURFEL) {
+        uint32_t missing = read_levels(cache_dir, name, triangles, desc, levels, bakes);
+        if (missing)
+            result = make_levels(cache_dir, triangles, desc, missing, bakes);
+    } else {
+        for (uint32_t level = 0; level < NOOK_VOXELIZE_LEVELS && result == NOOK_OK; level++) {
+            const nook_voxelize_desc of_level = level_of(desc, level);
+            if (levels >> level & 1)
+                result = nook_bake_cached(cache_dir, name, triangles, &of_level, &bakes[level]);
+        }
+    }
+    for (uint32_t level = 0; level < NOOK_VOXELIZE_LEVELS; level++) {
+        if (result == NOOK_OK && (levels >> level & 1))
+            out_bakes[level] = bakes[level];
+        else
+            nook_bake_free(&bakes[level]);
+    }
+    return result;
 }

@@ -11,13 +11,13 @@ extern "C" {
 
 /** A volume file image and how it was come by. */
 typedef struct nook_bake {
-    void *bytes; /**< A .nkv file image, checked. Owned; release with nook_bake_free. */
-    size_t size; /**< Bytes. */
+    void *bytes;   /**< A .nkv file image, checked. Owned; release with nook_bake_free. */
+    size_t size;   /**< Bytes. */
+    double ms;     /**< Wall time of voxelising and compressing, or of reading and checking. */
+    size_t bricks; /**< That were made anew in an older volume; 0: all were, or none. */
     nook_volume_info info;
-    double ms;      /**< Wall time of voxelising and compressing, or of reading and checking. */
-    bool cache_hit; /**< Nothing was voxelised. */
-    size_t bricks;  /**< That were made anew in an older volume; 0: all were, or none. */
     int keep_error; /**< The errno that says why it is not in the cache now; 0: it is, or there is no cache. */
+    bool cache_hit; /**< Nothing was voxelised. */
 } nook_bake;
 
 void nook_bake_free(nook_bake *bake); /**< NULL and zeroed bakes are allowed. */
@@ -48,6 +48,16 @@ typedef struct nook_bake_before {
  */
 nook_result nook_bake_cached_again(const char *cache_dir, const char *name, const nook_triangles *triangles,
                                    const nook_voxelize_desc *desc, const nook_bake_before *before, nook_bake *out_bake);
+
+/**
+ * Several levels of a body, each a file of its own. Those of surfels that the cache lacks are made in one pass (nook_voxelize_levels), whose time
+ * is that of the finest of them; of other kinds a level is what nook_bake_cached makes at nook_voxelize_level_resolution.
+ * @param desc  its level is not looked at @param levels  which: bits 1 << level, at least one, all below NOOK_VOXELIZE_LEVELS
+ * @param out_bakes  NOOK_VOXELIZE_LEVELS of them; those of the levels are filled, and all are untouched on failure
+ * @return as nook_bake_cached; NOOK_E_RANGE for other levels
+ */
+nook_result nook_bake_cached_levels(const char *cache_dir, const char *name, const nook_triangles *triangles,
+                                    const nook_voxelize_desc *desc, uint32_t levels, nook_bake *out_bakes);
 
 #ifdef __cplusplus
 }

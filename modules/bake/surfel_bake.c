@@ -30,20 +30,6 @@ typedef struct bake {
     atomic_bool out_of_memory;
 } bake;
 
-/* ---- Which triangle lies where ---------------------------------------------------------------------------------- */
-
-static void find_reach(void *user, size_t first, size_t last, unsigned worker)
-{
-    bake *b = user;
-    (void)worker;
-    for (size_t t = first; t < last; t++) {
-        int32_t slabs[2] = { 1, 0 };
-        nook_surfel_reach(&b->source, t, slabs);
-        b->reach[t][0] = (uint8_t)slabs[0];
-        b->reach[t][1] = (uint8_t)slabs[1];
-    }
-}
-
 /* ---- Slabs ------------------------------------------------------------------------------------------------------ */
 
 static bool reserve(slab *s, size_t count)
@@ -76,7 +62,7 @@ static bool fit_slab(bake *b, const nook_surfel_bins *bins, size_t count, size_t
         for (; i < count && nook_surfel_bins_voxel(bins, i) == voxel; i++)
             voxel_bins[held++] = nook_surfel_bins_get(bins, i);
         nook_surfel surfel;
-        if (!nook_surfel_fit(voxel_bins, held, &surfel))
+        if (!nook_surfel_fit(voxel_bins, held, NOOK_LAYER_BIAS / NOOK_SUBVOXEL, &surfel))
             continue;
         if (!reserve(s, s->count + 1))
             return false;
@@ -230,7 +216,7 @@ nook_result nook_surfel_bake(const nook_triangles *triangles, const nook_voxeliz
     unsigned workers = nook_parallel_workers(b.source.counts[2], desc->threads);
     nook_surfel *surfels = NULL;
     if (areas && allocate(&b, workers, most_bins(desc->memory))) {
-        nook_parallel_for(triangles->index_count / 3, desc->threads, find_reach, &b);
+        nook_surfel_find_reach(&b.source, desc->threads, b.reach);
         nook_parallel_for(b.source.counts[2], desc->threads, bake_slabs, &b);
         surfels = atomic_load(&b.out_of_memory) ? NULL : join_slabs(&b);
     }

@@ -56,6 +56,11 @@ void nook_surfel_bins_destroy(nook_surfel_bins *bins)
     free(bins);
 }
 
+void nook_surfel_bins_limit(nook_surfel_bins *bins, uint32_t most)
+{
+    bins->most = most > bins->count ? most : bins->count;
+}
+
 void nook_surfel_bins_clear(nook_surfel_bins *bins)
 {
     memset(bins->table, 0, bins->table_size * sizeof *bins->table);
@@ -149,29 +154,82 @@ static uint32_t direction_of(const double normal[3], int face)
     return ((uint32_t)face * CELLS + row) * CELLS + column;
 }
 
+/* The entry of a bin by direction and depth. @return as nook_surfel_bins_add */
+static nook_result find_bin(nook_surfel_bins *bins, uint32_t voxel, uint32_t direction, double depth, entry **out)
+{
+    uint32_t bin = direction * DEPTHS + clamp((depth - depth_lowest) / depth_step, DEPTHS - 1);
+    return find_entry(bins, voxel << BIN_BITS | bin, out);
+}
+
+/* llround, without the call: the fraction is exact. */
+static int64_t to_units(double value)
+{
+    double scaled = value * unit;
+    int64_t whole = (int64_t)scaled;
+    double rest = scaled - (double)whole;
+    return whole + (rest >= 0.5) - (rest <= -0.5);
+}
+
 nook_result nook_surfel_bins_add(nook_surfel_bins *bins, uint32_t voxel, const double normal[3],
                                  const nook_polygon_moments *moments)
 {
-    int64_t area = llround(moments->area * unit);
+    int64_t area = to_units(moments->area);
     if (area <= 0)
         return NOOK_OK;
     int face = largest_axis(normal);
     double sign = normal[face] < 0.0 ? -1.0 : 1.0;
     const double upright[3] = { sign * normal[0], sign * normal[1], sign * normal[2] };
     double depth = nook_vector_dot(upright, moments->first) / moments->area;
-    uint32_t bin = direction_of(upright, face) * DEPTHS + clamp((depth - depth_lowest) / depth_step, DEPTHS - 1);
     entry *e;
-    nook_result result = find_entry(bins, voxel << BIN_BITS | bin, &e);
+    nook_result result = find_bin(bins, voxel, direction_of(upright, face), depth, &e);
     if (result != NOOK_OK)
         return result;
     e->sum[0] += area;
     for (int i = 0; i < 3; i++) {
-        e->sum[1 + i] += llround(upright[i] * moments->area * unit);
-        e->sum[4 + i] += llround(moments->first[i] * unit);
+        e->sum[1 + i] += to_units(upright[i] * moments->area);
+        e->sum[4 + i] += to_units(moments->first[i]);
     }
     for (int i = 0; i < 6; i++)
-        e->sum[7 + i] += llround(moments->second[i] * unit);
+        e->sum[7 + i] += to_units(moments->second[i]);
     return NOOK_OK;
+}
+
+/*
+ * With s = +-1 for the half that the small voxel is in, a point x of it is (x + s / 2) / 2 in the large one. Divided from the right, so that
+ * nothing is larger than a sum; what is cut off is less than two units.
+ */
+static void move_sums(const int64_t from[SUMS], const int side[3], int64_t to[SUMS])
+{
+    static const int pair[6][2] = { { 0, 0 }, { 1, 1 }, { 2, 2 }, { 0, 1 }, { 1, 2 }, { 2, 0 } };
+    to[0] = from[0] / 4;
+    for (int i = 0; i < 3; i++) {
+        to[1 + i] = from[1 + i] / 4;
+        to[4 + i] = (from[4 + i] + side[i] * (from[0] / 2)) / 8;
+    }
+    for (int i = 0; i < 6; i++) {
+        int x = pair[i][0], y = pair[i][1];
+        to[7 + i] =
+            (from[7 + i] + (side[x] * from[4 + y] + side[y] * from[4 + x]) / 2 + side[x] * side[y] * (from[0] / 4)) /
+            16;
+    }
+}
+
+nook_result nook_surfel_bins_merge(const nook_surfel_bins *from, size_t index, const int side[3], nook_surfel_bins *to,
+                                   uint32_t voxel)
+{
+    const uint32_t bin = (uint32_t)(from->order[index] >> 32) & ((1u << BIN_BITS) - 1);
+    int64_t sum[SUMS];
+    move_sums(from->entries[(uint32_t)from->order[index]].sum, side, sum);
+    const double normal[3] = { (double)sum[1], (double)sum[2], (double)sum[3] };
+    const double first[3] = { (double)sum[4], (double)sum[5], (double)sum[6] };
+    double upright[3];
+    entry *e;
+    if (sum[0] <= 0 || !nook_vector_normalize(normal, upright))
+        return NOOK_OK;
+    nook_result result = find_bin(to, voxel, bin / DEPTHS, nook_vector_dot(upright, first) / (double)sum[0], &e);
+    for (int i = 0; i < SUMS && result == NOOK_OK; i++)
+        e->sum[i] += sum[i];
+    return result;
 }
 
 /* ---- Reading ---------------------------------------------------------------------------------------------------- */

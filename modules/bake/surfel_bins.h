@@ -42,11 +42,23 @@ nook_result nook_surfel_bins_add(nook_surfel_bins *bins, uint32_t voxel, const d
                                  const nook_polygon_moments *moments);
 #define NOOK_SURFEL_VOXELS (1u << 23)
 
+/** How many bins it takes at the most from now on: no fewer than it has. */
+void nook_surfel_bins_limit(nook_surfel_bins *bins, uint32_t most);
+
 /** Sorts by voxel, and in it by direction and depth. @return how many bins there are; NOOK_E_MEMORY as SIZE_MAX */
 size_t nook_surfel_bins_sort(nook_surfel_bins *bins);
 /** Of the sorted ones. */
 uint32_t nook_surfel_bins_voxel(const nook_surfel_bins *bins, size_t index);
 nook_surfel_bin nook_surfel_bins_get(const nook_surfel_bins *bins, size_t index);
+
+/**
+ * Adds a sorted bin to those of a grid whose voxels are twice as large. It stays in its direction; its depth is that of its mean. Its sums are
+ * rounded, each by less than 2^-35, so that those of `to` do not depend on the order of what is added, as long as each bin is whole.
+ * @param voxel  of `to` @param side  along each axis: -1 in the lower half of that voxel, 1 in the upper
+ * @return as nook_surfel_bins_add
+ */
+nook_result nook_surfel_bins_merge(const nook_surfel_bins *from, size_t index, const int side[3], nook_surfel_bins *to,
+                                   uint32_t voxel);
 
 #ifdef __cplusplus
 }

@@ -1,4 +1,5 @@
 #include "modules/bake/surfel_cut.h"
+#include "engine/core/jobs.h"
 #include "engine/core/vector.h"
 #include "modules/bake/brick_grid.h"
 #include <math.h>
@@ -19,6 +20,7 @@ typedef struct cutter {
     nook_alpha_map map;
     int32_t voxel[3];
     const nook_surfel_part *wanted;
+    uint32_t width; /* bricks along x of the part's level */
     nook_result result;
 } cutter;
 
@@ -72,8 +74,9 @@ static void find_range(const nook_polygon *polygon, int axis, int32_t inner, int
 {
     double low = INFINITY, high = -INFINITY;
     for (int i = 0; i < polygon->count; i++) {
-        low = fmin(low, polygon->corner[i][axis]);
-        high = fmax(high, polygon->corner[i][axis]);
+        const double at = polygon->corner[i][axis];
+        low = at < low ? at : low;
+        high = at > high ? at : high;
     }
     *out_first = nook_grid_layer(low, inner);
     *out_last = nook_grid_layer(high, inner);
@@ -89,6 +92,29 @@ bool nook_surfel_reach(const nook_surfel_source *source, size_t triangle, int32_
     out_slabs[0] = low / NOOK_BRICK_SIDE;
     out_slabs[1] = high / NOOK_BRICK_SIDE;
     return true;
+}
+
+typedef struct reach_job {
+    const nook_surfel_source *source;
+    uint8_t (*reach)[2];
+} reach_job;
+
+static void find_reach(void *user, size_t first, size_t last, unsigned worker)
+{
+    const reach_job *job = user;
+    (void)worker;
+    for (size_t t = first; t < last; t++) {
+        int32_t slabs[2] = { 1, 0 };
+        nook_surfel_reach(job->source, t, slabs);
+        job->reach[t][0] = (uint8_t)slabs[0];
+        job->reach[t][1] = (uint8_t)slabs[1];
+    }
+}
+
+void nook_surfel_find_reach(const nook_surfel_source *source, uint32_t threads, uint8_t (*out)[2])
+{
+    reach_job job = { source, out };
+    nook_parallel_for(source->triangles->index_count / 3, threads, find_reach, &job);
 }
 
 /* Which part the triangle belongs to, and where it lies on its texture. */
@@ -142,15 +168,27 @@ static bool is_wanted(const nook_surfel_part *part, uint32_t brick)
     return brick >= part->first && brick < part->end && (!part->wanted || part->wanted[brick]);
 }
 
+static uint32_t brick_of(const nook_surfel_part *part, int32_t layer)
+{
+    return (uint32_t)nook_grid_level_layer(layer, part->level) / NOOK_BRICK_SIDE;
+}
+
+/* Bricks along an axis, of the part's level. */
+static uint32_t bricks_along(const nook_surfel_source *source, const nook_surfel_part *part, int axis)
+{
+    return brick_of(part, (int32_t)source->frame->size[axis] - 1) + 1;
+}
+
 /* Whether what lies in this layer is looked at. */
 static bool is_layer_wanted(const cutter *c, int axis)
 {
-    const uint32_t width = c->source->counts[0], row = (uint32_t)c->voxel[1] / NOOK_BRICK_SIDE;
+    const nook_surfel_part *part = c->wanted;
     if (axis == 2)
-        return true;
+        return part->highest == 0 || (c->voxel[2] >= part->lowest && c->voxel[2] <= part->highest);
+    const uint32_t width = c->width, row = brick_of(part, c->voxel[1]);
     if (axis == 1)
-        return (row + 1) * width > c->wanted->first && row * width < c->wanted->end;
-    return is_wanted(c->wanted, row * width + (uint32_t)c->voxel[0] / NOOK_BRICK_SIDE);
+        return (row + 1) * width > part->first && row * width < part->end;
+    return is_wanted(part, row * width + brick_of(part, c->voxel[0]));
 }
 
 /*
@@ -181,25 +219,27 @@ static void cut_axis(cutter *c, const nook_polygon *polygon, int axis, int32_t l
 
 /* ---- Public ----------------------------------------------------------------------------------------------------- */
 
-/* First and last brick along each axis of the box around a triangle. */
-static void find_box(const nook_surfel_source *source, const nook_polygon *polygon, uint32_t out[2][3])
+/* First and last brick of the part's level along each axis of the box around a triangle. */
+static void find_box(const nook_surfel_source *source, const nook_surfel_part *part, const nook_polygon *polygon,
+                     uint32_t out[2][3])
 {
     for (int axis = 0; axis < 3; axis++) {
         int32_t first, last;
         find_range(polygon, axis, source->frame->inner[axis], &first, &last);
-        out[0][axis] = (uint32_t)first / NOOK_BRICK_SIDE;
-        out[1][axis] = (uint32_t)last / NOOK_BRICK_SIDE;
+        out[0][axis] = brick_of(part, first);
+        out[1][axis] = brick_of(part, last);
     }
 }
 
 /* Whether a brick of the box is in the part. */
 static bool is_any_wanted(const nook_surfel_source *source, const nook_surfel_part *part, uint32_t box[2][3])
 {
-    if (!part->wanted && part->first == 0 && part->end == source->counts[0] * source->counts[1])
+    const uint32_t width = bricks_along(source, part, 0);
+    if (!part->wanted && part->first == 0 && part->end == width * bricks_along(source, part, 1))
         return true;
     for (uint32_t y = box[0][1]; y <= box[1][1]; y++)
         for (uint32_t x = box[0][0]; x <= box[1][0]; x++)
-            if (is_wanted(part, y * source->counts[0] + x))
+            if (is_wanted(part, y * width + x))
                 return true;
     return false;
 }
@@ -207,12 +247,18 @@ static bool is_any_wanted(const nook_surfel_source *source, const nook_surfel_pa
 nook_result nook_surfel_cut(const nook_surfel_source *source, size_t triangle, const nook_surfel_part *part,
                             nook_surfel_bins *bins)
 {
-    cutter c = { .source = source, .bins = bins, .wanted = part, .result = NOOK_OK };
+    cutter c = { .source = source, .bins = bins, .wanted = part, .width = bricks_along(source, part, 0) };
     const double up[3] = { 0.0, 0.0, 1.0 }, down[3] = { 0.0, 0.0, -1.0 };
     uint32_t box[2][3];
     if (!read_triangle(source, triangle, &c.triangle))
         return NOOK_OK;
-    find_box(source, &c.triangle.polygon, box);
+    if (part->highest > 0) {
+        int32_t first, last;
+        find_range(&c.triangle.polygon, 2, source->frame->inner[2], &first, &last);
+        if (last < part->lowest || first > part->highest)
+            return NOOK_OK;
+    }
+    find_box(source, part, &c.triangle.polygon, box);
     if (!is_any_wanted(source, part, box))
         return NOOK_OK;
     find_part(&c, triangle);
@@ -238,7 +284,7 @@ void nook_surfel_mark(const nook_surfel_source *source, size_t triangle, uint8_t
     uint32_t box[2][3];
     if (!read_triangle(source, triangle, &p))
         return;
-    find_box(source, &p.polygon, box);
+    find_box(source, &(nook_surfel_part){ .level = 0 }, &p.polygon, box);
     for (uint32_t z = box[0][2]; z <= box[1][2]; z++)
         for (uint32_t y = box[0][1]; y <= box[1][1]; y++)
             memset(bricks + ((size_t)z * source->counts[1] + y) * source->counts[0] + box[0][0], 1,

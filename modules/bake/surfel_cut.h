@@ -22,11 +22,17 @@ typedef struct nook_surfel_source {
 /** First and last slab that a triangle lies in. @return false: it has no area, or a corner that is not finite */
 bool nook_surfel_reach(const nook_surfel_source *source, size_t triangle, int32_t out_slabs[2]);
 
-/** Some bricks of a slab, by their numbers in it: x fastest, then y. */
+/** First and last slab of every triangle; a first above the last: it lies in none. @param out  of each triangle */
+void nook_surfel_find_reach(const nook_surfel_source *source, uint32_t threads, uint8_t (*out)[2]);
+
+/** Some bricks of a slab, by their numbers in it: x fastest, then y. Zero but for the first three: bricks of the grid itself. */
 typedef struct nook_surfel_part {
     int32_t slab;
     uint32_t first, end;   /**< These, but for */
     const uint8_t *wanted; /**< those that are 0 here, a byte for each brick of the slab. NULL: all are wanted. */
+    uint32_t
+        level; /**< first and end are bricks of this level: docs/surfel_bricks.md, "Levels". `wanted` is NULL then. */
+    int32_t lowest, highest; /**< Of the slab's layers of voxels only these are wanted; highest 0: all. */
 } nook_surfel_part;
 
 /**

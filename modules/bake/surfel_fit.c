@@ -1,7 +1,6 @@
 #include "modules/bake/surfel_fit.h"
 #include "engine/core/vector.h"
 #include "modules/bake/surfel_word.h"
-#include "modules/bake/triangle_grid.h"
 #include <math.h>
 
 enum { ROUNDS = 8 };
@@ -130,11 +129,11 @@ static nook_surfel_side side_of(const nook_surfel_bin *sum, const plane *other)
 }
 
 /* Area of the plane in the voxel as triangles are cut by it, on its side of the other. */
-static double section_area(const plane *p, nook_surfel_side side, const plane *other)
+static double section_area(const plane *p, double bias, nook_surfel_side side, const plane *other)
 {
     const double centre[3] = { 0.0, 0.0, 0.0 };
     nook_polygon section, rest;
-    nook_polygon_of_cube(p->normal, p->offset, -0.5 - NOOK_LAYER_BIAS / NOOK_SUBVOXEL, &section);
+    nook_polygon_of_cube(p->normal, p->offset, -0.5 - bias, &section);
     if (side != NOOK_SIDE_BOTH) {
         double sign = side == NOOK_SIDE_ABOVE ? 1.0 : -1.0;
         const double inwards[3] = { sign * other->normal[0], sign * other->normal[1], sign * other->normal[2] };
@@ -163,40 +162,40 @@ static uint32_t pack(const nook_surfel_bin *sum, const plane *p, uint32_t alpha,
     return nook_surfel_pack(&packed, through);
 }
 
-static bool fit_one(const nook_surfel_bin *sum, nook_surfel *out)
+static bool fit_one(const nook_surfel_bin *sum, double bias, nook_surfel *out)
 {
     plane p = plane_of(sum);
-    uint32_t alpha = coverage(sum, &p, section_area(&p, NOOK_SIDE_BOTH, NULL));
+    uint32_t alpha = coverage(sum, &p, section_area(&p, bias, NOOK_SIDE_BOTH, NULL));
     if (alpha == 0)
         return false;
     *out = (nook_surfel){ { pack(sum, &p, alpha, NOOK_SIDE_BOTH), 0 } };
     return true;
 }
 
-static bool fit_two(const nook_surfel_bin sums[2], nook_surfel *out)
+static bool fit_two(const nook_surfel_bin sums[2], double bias, nook_surfel *out)
 {
     uint32_t alpha[2];
     nook_surfel_side side[2];
     plane planes[2] = { plane_of(&sums[0]), plane_of(&sums[1]) };
     for (int k = 0; k < 2; k++) {
         side[k] = side_of(&sums[k], &planes[1 - k]);
-        alpha[k] = coverage(&sums[k], &planes[k], section_area(&planes[k], side[k], &planes[1 - k]));
+        alpha[k] = coverage(&sums[k], &planes[k], section_area(&planes[k], bias, side[k], &planes[1 - k]));
     }
     for (int k = 0; k < 2; k++)
         if (alpha[k] == 0) /* too little to be told from nothing */
-            return fit_one(&sums[1 - k], out);
+            return fit_one(&sums[1 - k], bias, out);
     for (int k = 0; k < 2; k++)
         out->plane[k] = pack(&sums[k], &planes[k], alpha[k], side[k]);
     return true;
 }
 
-bool nook_surfel_fit(const nook_surfel_bin *bins, size_t count, nook_surfel *out)
+bool nook_surfel_fit(const nook_surfel_bin *bins, size_t count, double bias, nook_surfel *out)
 {
     uint8_t group[NOOK_SURFEL_BINS_PER_VOXEL] = { 0 };
     nook_surfel_bin sums[2];
     nook_surfel_bin all = sum_group(bins, group, count, 0);
     plane p = plane_of(&all);
     if (count == 1 || distance_to(&all, &p) <= flat * flat * all.area || !split(bins, count, group, sums))
-        return fit_one(&all, out);
-    return fit_two(sums, out);
+        return fit_one(&all, bias, out);
+    return fit_two(sums, bias, out);
 }

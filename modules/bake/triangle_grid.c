@@ -33,6 +33,9 @@ static nook_result check_input(const nook_triangles *triangles, const nook_voxel
                          NOOK_VOXELIZE_RESOLUTION_MAX);
     if (!nook_volume_kind_name(desc->kind))
         return nook_fail(NOOK_E_RANGE, "voxelize: kind %d; there are " NOOK_VOLUME_KINDS_TEXT, (int)desc->kind);
+    if (desc->level >= NOOK_VOXELIZE_LEVELS || (desc->level > 0 && desc->kind != NOOK_VOLUME_SURFEL))
+        return nook_fail(NOOK_E_RANGE, "voxelize: level %u of a volume of kind %s; surfels have levels 0 to %d",
+                         desc->level, nook_volume_kind_name(desc->kind), NOOK_VOXELIZE_LEVELS - 1);
     if (triangles->index_count % 3 != 0 || (triangles->stride != 0 && triangles->stride < 3 * sizeof(float)))
         return nook_fail(NOOK_E_ARG, "voxelize: %zu indices, stride %u: not a list of triangles",
                          triangles->index_count, triangles->stride);
@@ -103,9 +106,11 @@ static nook_grid_frame frame_box(const double box_min[3], const double box_max[3
 
 static int32_t snap(const nook_grid_frame *frame, int axis, float position)
 {
-    double steps = round((position - frame->origin[axis]) / frame->voxel_size * NOOK_SUBVOXEL);
+    double steps = (position - frame->origin[axis]) / frame->voxel_size * NOOK_SUBVOXEL;
     double low = NOOK_SUBVOXEL, high = (frame->inner[axis] + 1.0) * NOOK_SUBVOXEL;
-    return (int32_t)fmin(fmax(steps, low), high);
+    steps = steps < low ? low : steps > high ? high : steps;
+    int32_t whole = (int32_t)steps;
+    return whole + (steps - whole >= 0.5); /* round, without the call */
 }
 
 bool nook_grid_snap(const nook_grid_frame *frame, const nook_triangles *triangles, size_t triangle,
@@ -122,8 +127,25 @@ bool nook_grid_snap(const nook_grid_frame *frame, const nook_triangles *triangle
 
 int32_t nook_grid_layer(double depth, int32_t inner)
 {
-    int32_t layer = (int32_t)floor((depth + NOOK_LAYER_BIAS) / NOOK_SUBVOXEL);
+    int32_t layer = (int32_t)((depth + NOOK_LAYER_BIAS) / NOOK_SUBVOXEL); /* what is below 0 becomes 1 in any case */
     return layer < 1 ? 1 : layer > inner ? inner : layer;
+}
+
+int32_t nook_grid_level_layer(int32_t layer, uint32_t level)
+{
+    return (layer + (1 << level) - 1) >> level;
+}
+
+nook_grid_frame nook_grid_level(const nook_grid_frame *frame, uint32_t level)
+{
+    nook_grid_frame merged = { .voxel_size = frame->voxel_size * (1 << level) };
+    for (int axis = 0; axis < 3; axis++) {
+        merged.inner[axis] = nook_grid_level_layer(frame->inner[axis], level);
+        merged.size[axis] = (uint32_t)merged.inner[axis] + 2;
+        merged.origin[axis] =
+            frame->origin[axis] - frame->voxel_size * ((1 << level) - 1); /* both borders are a voxel */
+    }
+    return merged;
 }
 
 nook_result nook_grid_place(const nook_triangles *triangles, const nook_voxelize_desc *desc, nook_grid_frame *out_frame)

@@ -39,6 +39,11 @@ nook_result nook_grid_place(const nook_triangles *triangles, const nook_voxelize
 bool nook_grid_snap(const nook_grid_frame *frame, const nook_triangles *triangles, size_t triangle,
                     nook_snapped_triangle *out);
 
+/** The grid whose voxels are 2^level of this one's a side; its first ones begin with this one's. */
+nook_grid_frame nook_grid_level(const nook_grid_frame *frame, uint32_t level);
+/** The layer of that grid in which a layer of this one lies; the border's is the border's. */
+int32_t nook_grid_level_layer(int32_t layer, uint32_t level);
+
 /** The layer in [1, inner] in which a depth in steps lies. */
 int32_t nook_grid_layer(double depth, int32_t inner);
 

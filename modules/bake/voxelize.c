@@ -8,6 +8,7 @@
 #include "modules/bake/edit.h"
 #include "modules/bake/rasterize.h"
 #include "modules/bake/surfel_bake.h"
+#include "modules/bake/surfel_levels.h"
 #include <stdlib.h>
 #include <xxhash.h>
 
@@ -138,6 +139,9 @@ uint64_t nook_voxelize_hash(const nook_triangles *triangles, const nook_voxelize
     uint64_t hash = XXH3_64bits(settings, sizeof settings);
     if (desc->kind != NOOK_VOLUME_BINARY)
         hash = XXH3_64bits_withSeed(kind, sizeof kind, hash);
+    const uint64_t level[] = { desc->level, NOOK_SURFEL_LEVELS_VERSION };
+    if (desc->level > 0)
+        hash = XXH3_64bits_withSeed(level, sizeof level, hash);
     if (looks_at_alphas(desc))
         hash = nook_alphas_hash(triangles, desc->alphas, hash);
     hash = XXH3_64bits_withSeed(triangles->indices, triangles->index_count * sizeof(uint32_t), hash);
@@ -182,11 +186,34 @@ static nook_volume_info describe(const nook_triangles *triangles, const nook_vox
                                .occupied = occupied };
 }
 
+/* @param frame  of level 0 */
+static nook_result make_levels(const nook_triangles *triangles, const nook_voxelize_desc *desc,
+                               const nook_grid_frame *frame, uint32_t levels, nook_volume *out_volumes)
+{
+    nook_result result = nook_surfel_bake_levels(triangles, desc, frame, levels, out_volumes);
+    for (uint32_t level = 0; level < NOOK_VOXELIZE_LEVELS && result == NOOK_OK; level++) {
+        if (!(levels >> level & 1))
+            continue;
+        const nook_grid_frame merged = nook_grid_level(frame, level);
+        nook_voxelize_desc of_level = *desc;
+        of_level.level = level;
+        out_volumes[level].info = describe(triangles, &of_level, &merged, out_volumes[level].info.occupied);
+    }
+    return result;
+}
+
 nook_result nook_voxelize(const nook_triangles *triangles, const nook_voxelize_desc *desc, nook_volume *out_volume)
 {
     nook_grid_frame frame;
     nook_volume volume;
     nook_result result = nook_grid_place(triangles, desc, &frame);
+    if (result == NOOK_OK && desc->level > 0) {
+        nook_volume volumes[NOOK_VOXELIZE_LEVELS];
+        result = make_levels(triangles, desc, &frame, 1u << desc->level, volumes);
+        if (result == NOOK_OK)
+            *out_volume = volumes[desc->level];
+        return result;
+    }
     if (result == NOOK_OK)
         result = make_kind(triangles, desc, &frame, &volume);
     if (result != NOOK_OK)
@@ -194,6 +221,26 @@ nook_result nook_voxelize(const nook_triangles *triangles, const nook_voxelize_d
     volume.info = describe(triangles, desc, &frame, volume.info.occupied);
     *out_volume = volume;
     return NOOK_OK;
+}
+
+/* ---- Levels ----------------------------------------------------------------------------------------------------- */
+
+uint32_t nook_voxelize_level_resolution(uint32_t resolution, uint32_t level)
+{
+    return (uint32_t)nook_grid_level_layer((int32_t)resolution, level);
+}
+
+nook_result nook_voxelize_levels(const nook_triangles *triangles, const nook_voxelize_desc *desc, uint32_t levels,
+                                 nook_volume *out_volumes)
+{
+    nook_grid_frame frame;
+    nook_voxelize_desc finest = *desc;
+    finest.level = 0;
+    if (levels == 0 || levels >> NOOK_VOXELIZE_LEVELS || desc->kind != NOOK_VOLUME_SURFEL)
+        return nook_fail(NOOK_E_RANGE, "voxelize: levels %#x of kind %d; surfels alone have levels, 0 to %d, as bits",
+                         levels, (int)desc->kind, NOOK_VOXELIZE_LEVELS - 1);
+    nook_result result = nook_grid_place(triangles, &finest, &frame);
+    return result == NOOK_OK ? make_levels(triangles, &finest, &frame, levels, out_volumes) : result;
 }
 
 /* ---- Again ------------------------------------------------------------------------------------------------------ */
@@ -247,15 +294,16 @@ nook_result nook_voxelize_again(const nook_triangles *triangles, const nook_voxe
         result = check_before(desc, before);
     if (result != NOOK_OK)
         return result;
-    if (desc->kind == NOOK_VOLUME_SURFEL && is_same_grid(&before->volume->info, &frame)) {
+    if (desc->kind == NOOK_VOLUME_SURFEL && desc->level == 0 && is_same_grid(&before->volume->info, &frame)) {
         result = make_changed(triangles, desc, before, &frame, &volume, &bricks);
+        if (result == NOOK_OK)
+            volume.info = describe(triangles, desc, &frame, volume.info.occupied);
     } else {
-        result = make_kind(triangles, desc, &frame, &volume);
+        result = nook_voxelize(triangles, desc, &volume);
         bricks = nook_brick_total(&before->volume->info);
     }
     if (result != NOOK_OK)
         return result;
-    volume.info = describe(triangles, desc, &frame, volume.info.occupied);
     *out_volume = volume;
     if (out_bricks)
         *out_bricks = bricks;

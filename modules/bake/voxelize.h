@@ -31,6 +31,7 @@ extern "C" {
 /** Raise it when the voxels of the same triangles change: cached volumes of older versions are then baked again. */
 #define NOOK_VOXELIZE_VERSION 2u
 #define NOOK_VOXELIZE_MEMORY (64u << 20)
+#define NOOK_VOXELIZE_LEVELS 4 /**< The volume itself, and three coarser ones. */
 #define NOOK_VOXELIZE_RESOLUTION_MAX (NOOK_VOLUME_SIDE_MAX - 2u)
 
 typedef struct nook_triangles {
@@ -47,18 +48,35 @@ typedef struct nook_voxelize_desc {
     size_t
         memory; /**< Bytes that each thread may use to sum up surfels, at least 4 MiB; 0: NOOK_VOXELIZE_MEMORY. Nor on this. */
     nook_volume_kind kind; /**< What is made of the triangles; 0: voxels. */
+    uint32_t
+        level; /**< Of surfels: how often 2 x 2 x 2 voxels are merged into one, below NOOK_VOXELIZE_LEVELS. 0: the volume itself. */
     const nook_alphas
         *alphas; /**< Of the triangles; NULL: all are opaque. What each kind makes of them: docs/volume_kinds.md. */
 } nook_voxelize_desc;
 
 /**
- * Makes the volume of a soup: its bounding box at `resolution`, plus one empty voxel on every side.
+ * Makes the volume of a soup, or a level of it: its bounding box at `resolution`, plus one empty voxel on every side.
  * Degenerate triangles are voxelised as the segments or points they are, and have no surfels, which cover area; triangles with a non-finite corner are left out
  * (one warning counts them). Soups smaller than a micrometre are voxelised as if they were that large.
- * @return NOOK_E_RANGE resolution or kind; NOOK_E_ARG nothing finite to voxelise, or indices, stride or parts out of bounds;
+ * @return NOOK_E_RANGE resolution, kind or level; NOOK_E_ARG nothing finite to voxelise, or indices, stride or parts out of bounds;
  *         NOOK_E_MEMORY; *out_volume is untouched on failure. Its content_hash is nook_voxelize_hash's.
  */
 nook_result nook_voxelize(const nook_triangles *triangles, const nook_voxelize_desc *desc, nook_volume *out_volume);
+
+/** Voxels along the longest side of a level: resolution / 2^level, rounded up. */
+uint32_t nook_voxelize_level_resolution(uint32_t resolution, uint32_t level);
+
+/**
+ * Makes several levels of a volume of surfels in one pass: triangles are cut once. Level 0 is nook_voxelize's volume bit for bit; level k is
+ * made of the sums of level k - 1, those of 2 x 2 x 2 voxels in each of its own, and is the same whichever levels are asked for, also
+ * as the only one by nook_voxelize: docs/surfel_bricks.md, "Levels". Other kinds cannot be merged; bake each at its own resolution.
+ * @param desc  its level is not looked at
+ * @param levels  which: bits 1 << level, at least one, all below NOOK_VOXELIZE_LEVELS
+ * @param out_volumes  NOOK_VOXELIZE_LEVELS of them; those of the levels are filled, and all are untouched on failure
+ * @return as nook_voxelize; NOOK_E_RANGE also for other levels and kinds
+ */
+nook_result nook_voxelize_levels(const nook_triangles *triangles, const nook_voxelize_desc *desc, uint32_t levels,
+                                 nook_volume *out_volumes);
 
 /** What a soup was before it was edited, and the volume that was made of it. Borrowed. */
 typedef struct nook_voxelize_before {
@@ -69,7 +87,7 @@ typedef struct nook_voxelize_before {
 
 /**
  * The same as nook_voxelize bit for bit, sooner: of surfels only those bricks are made in whose boxes triangles differ, before or after. Where
- * the grid differs, as the soup's box does, and for other kinds, everything is made. Triangles are told apart by their places in
+ * the grid differs, as the soup's box does, for levels above 0, and for other kinds, everything is made. Triangles are told apart by their places in
  * the lists: what is put in or taken out in one place of a list changes only the triangles between.
  * @param out_bricks  how many were made; NULL is allowed
  * @return as nook_voxelize; NOOK_E_ARG also when the volume is not that of those triangles
@@ -78,7 +96,7 @@ nook_result nook_voxelize_again(const nook_triangles *triangles, const nook_voxe
                                 const nook_voxelize_before *before, nook_volume *out_volume, size_t *out_bricks);
 
 /**
- * Identifies a bake: a hash of positions, indices, kind, resolution, the versions of voxeliser and file, and of those parts that the kind
+ * Identifies a bake: a hash of positions, indices, kind, resolution, level, the versions of voxeliser and file, and of those parts that the kind
  * looks at. Threads and stride do not enter. Takes what nook_voxelize takes.
  */
 uint64_t nook_voxelize_hash(const nook_triangles *triangles, const nook_voxelize_desc *desc);

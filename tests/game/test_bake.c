@@ -1,5 +1,6 @@
 #include "engine/core/file.h"
 #include "game/commands/commands.h"
+#include "game/volume_levels.h"
 #include "tests/support/log_capture.h"
 #include "tests/support/scratch.h"
 #include <dirent.h>
@@ -106,6 +107,51 @@ static void test_bake_makes_the_kinds_that_are_asked_for(void **state)
     clear(&b);
 }
 
+static void test_several_resolutions_are_levels_of_the_largest(void **state)
+{
+    (void)state;
+    bench b;
+    prepare(&b);
+    char numbers[64] = "64", *argv[] = { "bake",      b.scene, "--cache",      b.cache, "--kinds", "surfel,binary",
+                                         "--threads", "1",     "--resolution", numbers, NULL };
+    assert_int_equal(run(&b, 10, argv), NOOK_EXIT_OK);
+    assert_int_equal(count_cache(&b, false), 2);
+    snprintf(numbers, sizeof numbers, "32,64,16");
+    assert_int_equal(run(&b, 10, argv), NOOK_EXIT_OK);
+    assert_int_equal(count_cache(&b, false), 6); /* the finest are those that were there */
+    assert_int_equal(run(&b, 10, argv), NOOK_EXIT_OK);
+    snprintf(numbers, sizeof numbers, "64,16,8"); /* of 8 voxels nobody has a use */
+    assert_int_equal(run(&b, 10, argv), NOOK_EXIT_OK);
+    assert_int_equal(count_cache(&b, false), 6);
+    snprintf(numbers, sizeof numbers, "32"); /* a surfel volume of its own is another one than a level */
+    assert_int_equal(run(&b, 10, argv), NOOK_EXIT_OK);
+    assert_int_equal(count_cache(&b, false), 7);
+    clear(&b);
+}
+
+static void test_resolutions_that_do_not_nest_are_refused(void **state)
+{
+    (void)state;
+    nook_resolutions levels = { 7, 7 };
+    static const char *const wrong[] = { "64,33", "64,64",  "64,4",     "512,256,128,64,32",
+                                         "64,",   ",64",    "64,32,64", "1024,512",
+                                         "64 32", "64,-32", "64,0",     "" };
+    for (size_t i = 0; i < NOOK_COUNT(wrong); i++)
+        assert_false(nook_resolutions_read(wrong[i], &levels));
+    assert_true(levels.resolution == 7 && levels.levels == 7);
+    static const struct {
+        const char *text;
+        uint32_t resolution, levels;
+    } right[] = {
+        { "512,256,128,64", 512, 15 }, { "64,512", 512, 9 }, { "37,19", 37, 3 }, { "5,37,10", 37, 13 }, { "1", 1, 1 }
+    };
+    for (size_t i = 0; i < NOOK_COUNT(right); i++) {
+        assert_true(nook_resolutions_read(right[i].text, &levels));
+        assert_int_equal(levels.resolution, right[i].resolution);
+        assert_int_equal(levels.levels, right[i].levels);
+    }
+}
+
 static void test_bake_fails_when_its_volumes_cannot_be_kept(void **state)
 {
     (void)state;
@@ -116,6 +162,9 @@ static void test_bake_fails_when_its_volumes_cannot_be_kept(void **state)
     assert_int_equal(run(&b, 4, cannot_be_made), NOOK_EXIT_FAILED);
     assert_int_equal(b.log.count, 1);
     assert_non_null(strstr(b.log.text, inside_a_file));
+    char *levels_cannot[] = { "bake", b.scene, "--cache", inside_a_file, "--resolution", "32,16", NULL };
+    assert_int_equal(run(&b, 6, levels_cannot), NOOK_EXIT_FAILED);
+    assert_int_equal(b.log.count, 1);
     clear(&b);
 }
 
@@ -174,9 +223,10 @@ static void test_bake_refuses_absurd_options(void **state)
     (void)state;
     bench b;
     prepare(&b);
-    static char *const wrong[][2] = { { "--resolution", "0" },    { "--resolution", "513" }, { "--resolution", "-5" },
-                                      { "--resolution", "many" }, { "--r-max", "0" },        { "--r-max", "-1" },
-                                      { "--r-max", "nan" },       { "--threads", "-1" },     { "--cache", "" } };
+    static char *const wrong[][2] = { { "--resolution", "0" },    { "--resolution", "513" },   { "--resolution", "-5" },
+                                      { "--resolution", "many" }, { "--resolution", "64,40" }, { "--r-max", "0" },
+                                      { "--r-max", "-1" },        { "--r-max", "nan" },        { "--threads", "-1" },
+                                      { "--cache", "" } };
     for (size_t i = 0; i < NOOK_COUNT(wrong); i++)
         assert_int_equal(run(&b, 4, (char *[]){ "bake", b.scene, wrong[i][0], wrong[i][1], NULL }), NOOK_EXIT_USAGE);
     assert_int_equal(run(&b, 1, (char *[]){ "bake", NULL }), NOOK_EXIT_USAGE);
@@ -189,6 +239,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_bake_fills_the_cache_and_finds_it_again),
         cmocka_unit_test(test_bake_makes_the_kinds_that_are_asked_for),
+        cmocka_unit_test(test_several_resolutions_are_levels_of_the_largest),
+        cmocka_unit_test(test_resolutions_that_do_not_nest_are_refused),
         cmocka_unit_test(test_bake_fails_when_its_volumes_cannot_be_kept),
         cmocka_unit_test(test_bake_fails_when_a_directory_stands_where_a_volume_belongs),
         cmocka_unit_test(test_scene_without_area_has_nothing_to_bake),
