@@ -186,6 +186,11 @@ void ao_volume_id_give(nook_ao *ao, uint32_t id); /**< One that is not known is 
 nook_result ao_ask_for_volumes(nook_ao *ao, uint32_t kinds);
 /** By id, of the first of `kinds` that it has. @return NULL when there is none */
 const nook_volume_info *ao_volume_info(const nook_ao *ao, uint32_t id, uint32_t kinds);
+nook_matrix ao_mesh_from_voxel(const nook_volume_info *info);
+/** All of a row but its place. @return false: floats cannot hold it, or it is flat; *out is undefined then */
+bool ao_compose(const nook_volume_info *info, const nook_matrix *view_from_mesh, ao_gpu_occluder *out);
+/** Centre and radius of a row: the sphere around a box, whose corners are given in voxels. */
+void ao_set_sphere(const nook_matrix *view_from_voxel, const double low[3], const double high[3], ao_gpu_occluder *out);
 /**
  * Composes this frame's marched occluders, those that are there in one of `kinds`, into ao->gpu_occluders and
  * ao->line_max. @return how many

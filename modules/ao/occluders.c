@@ -28,13 +28,16 @@ static void set_normal_rows(const nook_matrix *inverse, float rows[3][4])
     }
 }
 
-static void set_sphere(const nook_matrix *view_from_voxel, const nook_volume_info *info, ao_gpu_occluder *out)
+void ao_set_sphere(const nook_matrix *view_from_voxel, const double low[3], const double high[3], ao_gpu_occluder *out)
 {
-    const double middle[3] = { 0.5 * info->width, 0.5 * info->height, 0.5 * info->depth };
-    double centre[3], radius = 0.0;
+    double middle[3], centre[3], radius = 0.0;
+    for (int axis = 0; axis < 3; axis++)
+        middle[axis] = 0.5 * (low[axis] + high[axis]);
     nook_matrix_apply_point(view_from_voxel, middle, centre);
     for (int corner = 0; corner < 4; corner++) { /* opposite corners are equally far */
-        double half[3] = { middle[0], corner & 1 ? -middle[1] : middle[1], corner & 2 ? -middle[2] : middle[2] };
+        double half[3] = { high[0] - middle[0], high[1] - middle[1], high[2] - middle[2] };
+        half[1] *= corner & 1 ? -1.0 : 1.0;
+        half[2] *= corner & 2 ? -1.0 : 1.0;
         nook_matrix_apply_vector(view_from_voxel, half, half);
         double length = nook_vector_length(half);
         radius = length > radius ? length : radius;
@@ -56,18 +59,24 @@ static int fits_floats(const ao_gpu_occluder *o)
     return fits;
 }
 
-static int compose(const nook_volume_info *info, const nook_matrix *view_from_mesh, ao_gpu_occluder *out)
+nook_matrix ao_mesh_from_voxel(const nook_volume_info *info)
 {
     nook_matrix scale = nook_matrix_scale(info->voxel_size, info->voxel_size, info->voxel_size);
     nook_matrix origin = nook_matrix_translation(info->origin[0], info->origin[1], info->origin[2]);
-    nook_matrix mesh_from_voxel = nook_matrix_multiply(&origin, &scale);
-    nook_matrix view_from_voxel = nook_matrix_multiply(view_from_mesh, &mesh_from_voxel), voxel_from_view;
+    return nook_matrix_multiply(&origin, &scale);
+}
+
+bool ao_compose(const nook_volume_info *info, const nook_matrix *view_from_mesh, ao_gpu_occluder *out)
+{
+    static const double corner[3] = { 0.0, 0.0, 0.0 };
+    nook_matrix mesh_from_voxel = ao_mesh_from_voxel(info), voxel_from_view;
+    nook_matrix view_from_voxel = nook_matrix_multiply(view_from_mesh, &mesh_from_voxel);
     if (!nook_matrix_inverse_affine(&view_from_voxel, &voxel_from_view))
-        return 0;
+        return false;
     *out = (ao_gpu_occluder){ .size = { (float)info->width, (float)info->height, (float)info->depth, 0.0f } };
     set_rows(&voxel_from_view, out->voxel_from_view);
     set_normal_rows(&view_from_voxel, out->normal_from_view);
-    set_sphere(&view_from_voxel, info, out);
+    ao_set_sphere(&view_from_voxel, corner, (double[]){ info->width, info->height, info->depth }, out);
     return fits_floats(out);
 }
 
@@ -107,60 +116,13 @@ uint32_t ao_collect_volumes(nook_ao *ao, const nook_matrix *view_from_world, uin
             continue;
         nook_matrix world_from_mesh = matrix_of(occluder->world_from_mesh);
         nook_matrix view_from_mesh = nook_matrix_multiply(view_from_world, &world_from_mesh);
-        if (!compose(info, &view_from_mesh, &ao->gpu_occluders[count]))
+        if (!ao_compose(info, &view_from_mesh, &ao->gpu_occluders[count]))
             continue;
         set_place(ao, occluder->volume.id, info, &ao->gpu_occluders[count++]);
         uint32_t line = info->width + info->height + info->depth;
         ao->line_max = line > ao->line_max ? line : ao->line_max;
     }
     return count;
-}
-
-/** Two that a trace cannot tell from each other. */
-static int is_same(const ao_marched *a, const ao_marched *b)
-{
-    const nook_volume_info *x = &a->info, *y = &b->info;
-    return a->volume == b->volume && a->version == b->version && x->content_hash == y->content_hash &&
-           x->width == y->width && x->height == y->height && x->depth == y->depth && x->voxel_size == y->voxel_size &&
-           memcmp(x->origin, y->origin, sizeof x->origin) == 0 &&
-           memcmp(&a->world_from_mesh, &b->world_from_mesh, sizeof a->world_from_mesh) == 0;
-}
-
-static uint32_t version_of(const nook_ao *ao, uint32_t id, const nook_volume_info *info)
-{
-    return info->kind == NOOK_VOLUME_SURFEL ? 0 : volume_atlas_find(&ao->atlases[info->kind], id)->version;
-}
-
-static void add_moved(ao_reuse *reuse, const nook_matrix *view_from_world, const ao_marched *marched)
-{
-    nook_matrix view_from_mesh = nook_matrix_multiply(view_from_world, &marched->world_from_mesh);
-    if (compose(&marched->info, &view_from_mesh, &reuse->moved[reuse->moved_count]))
-        reuse->moved_count++;
-}
-
-void ao_collect_moved(nook_ao *ao, const nook_matrix *view_from_world, bool compare)
-{
-    ao_reuse *reuse = &ao->reuse;
-    uint32_t count = 0, before = compare ? reuse->marched_count : 0;
-    reuse->moved_count = 0;
-    for (uint32_t i = 0; i < ao->occluder_count; i++) {
-        const uint32_t id = ao->occluders[i].volume.id;
-        const nook_volume_info *info = ao_volume_info(ao, id, ao->kinds);
-        if (!info)
-            continue;
-        const ao_marched now = { id, version_of(ao, id, info), *info, matrix_of(ao->occluders[i].world_from_mesh) };
-        ao_marched *kept = &reuse->marched[count];
-        bool known = count < before, same = known && is_same(kept, &now);
-        if (compare && !same)
-            add_moved(reuse, view_from_world, &now);
-        if (known && !same)
-            add_moved(reuse, view_from_world, kept);
-        *kept = now;
-        count++;
-    }
-    for (uint32_t i = count; i < before; i++)
-        add_moved(reuse, view_from_world, &reuse->marched[i]);
-    reuse->marched_count = count;
 }
 
 uint32_t ao_collect_meshes(nook_ao *ao, const nook_matrix *view_from_world)

@@ -19,7 +19,9 @@ typedef struct reuse_block {
     float view_from_before[3][4];
     float ray_scale[2], ray_offset[2];
     int32_t period, turn, has_before, stands;
-    int32_t moved_count, padding[3];
+    int32_t moved_count;
+    float error;
+    int32_t padding[2];
 } reuse_block;
 
 _Static_assert(offsetof(reuse_block, ray_scale) == 96 && sizeof(reuse_block) == 144, "std140 places ray_scale at 96");
@@ -67,8 +69,11 @@ void ao_reuse_release(nook_ao *ao)
     nook_texture_destroy(ao->gpu, &reuse->moved_texture);
     nook_buffer_destroy(ao->gpu, &reuse->moved_buffer);
     nook_buffer_destroy(ao->gpu, &reuse->block);
-    free(reuse->marched);
+    for (int i = 0; i < AO_REUSE_MOST; i++)
+        free(reuse->marched[i].items);
+    free(reuse->still);
     free(reuse->moved);
+    free(reuse->boxes);
     free(reuse->settings);
     *reuse = (ao_reuse){ .holds = false };
 }
@@ -77,17 +82,24 @@ void ao_reuse_release(nook_ao *ao)
 static nook_result fit_lists(nook_ao *ao)
 {
     ao_reuse *reuse = &ao->reuse;
-    const size_t moved_max = 2 * (size_t)ao->occluder_max;
+    const size_t moved_max = 2 * (size_t)ao->occluder_max, box_max = ao->occluder_max * (size_t)(AO_REUSE_MOST - 1);
     if (reuse->moved_texture.id)
         return NOOK_OK;
     ao_reuse_release(ao); /* of a try that failed */
-    reuse->marched = calloc(ao->occluder_max, sizeof *reuse->marched);
+    reuse->still = calloc(ao->occluder_max, sizeof *reuse->still);
     reuse->moved = calloc(moved_max, sizeof *reuse->moved);
-    if (!reuse->marched || !reuse->moved)
+    reuse->boxes = calloc(box_max, sizeof *reuse->boxes);
+    bool has_room = reuse->still && reuse->moved && reuse->boxes;
+    for (int i = 0; i < AO_REUSE_MOST && has_room; i++) {
+        reuse->marched[i].items = calloc(ao->occluder_max, sizeof *reuse->marched[i].items);
+        has_room = reuse->marched[i].items != NULL;
+    }
+    if (!has_room)
         return nook_fail(NOOK_E_MEMORY, "ao.reuse: no memory for %u occluders", ao->occluder_max);
     nook_result result = nook_buffer_create(ao->gpu, NULL, sizeof(reuse_block), &reuse->block);
     if (result == NOOK_OK)
-        result = nook_buffer_create(ao->gpu, NULL, moved_max * sizeof *reuse->moved, &reuse->moved_buffer);
+        result = nook_buffer_create(ao->gpu, NULL, moved_max * sizeof *reuse->moved + box_max * sizeof *reuse->boxes,
+                                    &reuse->moved_buffer);
     if (result == NOOK_OK)
         result = nook_texture_create_buffer(ao->gpu, GL_RGBA32F, reuse->moved_buffer, &reuse->moved_texture);
     return result;
@@ -169,7 +181,8 @@ static reuse_block make_block(const nook_ao *ao, const nook_ao_frame *frame, con
     const double *p = reuse->clip_from_view.m;
     reuse_block block = { .period = ao->shared.reuse,
                           .turn = (int32_t)(reuse->number % (uint32_t)ao->shared.reuse),
-                          .moved_count = (int32_t)reuse->moved_count };
+                          .moved_count = (int32_t)reuse->moved_count,
+                          .error = ao->shared.reuse_error };
     nook_matrix world_from_view, world_from_before;
     if (!reuse->holds || !nook_matrix_inverse_affine(&pass->view_from_world, &world_from_view) ||
         !nook_matrix_inverse_affine(&reuse->view_from_world, &world_from_before))
@@ -205,6 +218,18 @@ static void bind(const nook_ao *ao, const nook_ao_pass *pass)
     nook_bind_storage(ao->gpu, AO_BINDING_COUNTER, pass->counter);
 }
 
+/** Boxes follow all that has moved. */
+static void upload_moved(const nook_ao *ao)
+{
+    const ao_reuse *reuse = &ao->reuse;
+    const size_t size = reuse->moved_count * sizeof *reuse->moved;
+    const size_t box_count = reuse->moved_count * (size_t)(ao->shared.reuse - 1);
+    if (reuse->moved_count)
+        nook_buffer_update(ao->gpu, reuse->moved_buffer, 0, reuse->moved, size);
+    if (reuse->moved_count && ao->shared.reuse_error > 0.0f)
+        nook_buffer_update(ao->gpu, reuse->moved_buffer, size, reuse->boxes, box_count * sizeof *reuse->boxes);
+}
+
 static nook_result dispatch(nook_ao *ao, const nook_ao_frame *frame, const nook_ao_pass *pass)
 {
     static const tiles_head nothing = { .groups = { 0, 0, 1 } };
@@ -212,8 +237,7 @@ static nook_result dispatch(nook_ao *ao, const nook_ao_frame *frame, const nook_
     const reuse_block block = make_block(ao, frame, pass);
     nook_buffer_update(ao->gpu, reuse->block, 0, &block, sizeof block);
     nook_buffer_update(ao->gpu, reuse->tiles, 0, &nothing, sizeof nothing);
-    if (reuse->moved_count)
-        nook_buffer_update(ao->gpu, reuse->moved_buffer, 0, reuse->moved, reuse->moved_count * sizeof *reuse->moved);
+    upload_moved(ao);
     bind(ao, pass);
     return nook_ao_pass_dispatch(pass, "shaders/ao/reuse.comp.glsl", TILE_SIZE, TILE_SIZE);
 }

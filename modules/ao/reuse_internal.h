@@ -19,20 +19,41 @@ typedef struct ao_marched {
     nook_matrix world_from_mesh;
 } ao_marched;
 
+enum { AO_REUSE_MOST = 8 }; /**< Largest ao.reuse: no value is as many frames old. */
+
+/** What a record has marched. */
+typedef struct ao_marched_list {
+    ao_marched *items; /**< Room for nook_ao.occluder_max. Owned. */
+    uint32_t count;
+} ao_marched_list;
+
+/** Corners of a box, voxels. */
+typedef struct ao_box {
+    double low[3], high[3];
+} ao_box;
+
+/** The same for shaders/ao/reuse.comp.glsl: two rows of moved_texture. */
+typedef struct ao_moved_box {
+    float low[4]; /**< w: 1 when something has moved in it, else 0. */
+    float high[4];
+} ao_moved_box;
+
 /** All zero before the first record that reuses. */
 typedef struct ao_reuse {
     bool holds;                             /**< Of the last record, whose values may be taken over: */
     nook_texture depth, normal, visibility; /**< Of the trace's size. */
-    nook_texture ages[2];                   /**< R8UI: frames since a pixel was traced; [0] */
+    nook_texture ages[2];                   /**< R8UI: ages_packed() of reuse.comp.glsl; [0] */
     nook_matrix view_from_world, clip_from_view;
-    ao_marched *marched; /**< Room for nook_ao.occluder_max. Owned. */
-    uint32_t marched_count;
+    ao_marched_list marched[AO_REUSE_MOST]; /**< By the last records: record n in n % AO_REUSE_MOST. */
+    uint32_t run;                           /**< Records before the last one that took over from each other. */
+    uint8_t *still; /**< Of each place in the lists: records since something else stood there. occluder_max. Owned. */
     void *settings; /**< The technique's descriptor, shared and own parameters, as bytes. Owned. */
     size_t settings_size;
     uint32_t number; /**< Of records that reuse. */
 
     struct ao_gpu_occluder *moved; /**< Scratch of twice occluder_max: as they are, as they were. Owned. */
     uint32_t moved_count;
+    ao_moved_box *boxes; /**< Scratch, with ao.reuse_error: of each of `moved` for each age. Owned. */
     nook_buffer moved_buffer, block, tiles; /**< `tiles`: shaders/ao/tiles.glsl. */
     nook_texture moved_texture;             /**< Shows moved_buffer. */
 } ao_reuse;
@@ -52,6 +73,7 @@ uint32_t ao_reuse_count_traced(const nook_ao *ao);
 void ao_reuse_release(nook_ao *ao);
 /**
  * Composes into ao->reuse.moved those of the marched occluders that are not as the last record has marched them, as they are and as
- * they were; then remembers them all as they are. Without `compare` it only remembers.
+ * they were; with ao.reuse_error those that have changed within ao.reuse records, once each, and their boxes. Then remembers them all.
+ * @param compare  false: only remembers, and nothing of before counts any more
  */
 void ao_collect_moved(nook_ao *ao, const nook_matrix *view_from_world, bool compare);

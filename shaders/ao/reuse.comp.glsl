@@ -2,6 +2,7 @@
 // docs/techniques.md, Reuse. Occluders here are those that have moved, as they are and as they were.
 #include "ao/tile_list.glsl"
 #include "ao/counter.glsl"
+#include "ao/box_weight.glsl"
 #include "nook/octahedral.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std140, binding = 1) uniform Reuse { // struct reuse_block of modules/ao/reuse.c
@@ -13,6 +14,7 @@ layout(std140, binding = 1) uniform Reuse { // struct reuse_block of modules/ao/
     int has_before;             // 0: everything is traced
     int stands;                 // both frames are seen alike: a pixel is its own predecessor
     int moved_count;
+    float error;                // by which what moves may change a value at the most; 0: what is near it is traced
 } reuse;
 layout(binding = 0) uniform sampler2D depth_texture;
 layout(binding = 1) uniform sampler2D normal_texture;
@@ -89,6 +91,48 @@ bool near_what_moved(bool wanted, vec3 position, vec3 normal)
     return found;
 }
 
+// What an occluder that has moved in the last frames can have changed since the one `since` frames ago at the most: the part of the sky that
+// the box takes in which it was all the time.
+float change_by(int moved, int since, vec3 position, mat3 plane_from_view)
+{
+    int row = reuse.moved_count * OCCLUDER_ROWS + (moved * (reuse.period - 1) + since - 1) * 2;
+    vec4 low = texelFetch(occluder_rows, row);
+    if (low.w == 0.0)
+        return 0.0;
+    Occluder o = occluder_at(moved);
+    vec3 voxel = to_voxel(o, position), reach = reach_of(o, frame.r_max);
+    low.xyz -= voxel;
+    vec3 high = texelFetch(occluder_rows, row + 1).xyz - voxel;
+    if (any(greaterThan(low.xyz, reach)) || any(lessThan(high, -reach)))
+        return 0.0;
+    if (all(lessThanEqual(low.xyz, vec3(0.0))) && all(greaterThanEqual(high, vec3(0.0))))
+        return 1.0;
+    mat3 axes = plane_from_view * mat3(o.normal_from_view[0].xyz, o.normal_from_view[1].xyz, o.normal_from_view[2].xyz);
+    return box_weight(low.xyz, high, axes);
+}
+
+// Uniform control flow.
+bool may_have_changed(bool wanted, int since, vec3 position, vec3 normal)
+{
+    float sum = 0.0;
+    vec3 tangent, bitangent;
+    tangent_frame(normal, tangent, bitangent);
+    mat3 plane_from_view = transpose(mat3(tangent, bitangent, normal));
+    for (int chunk = 0; chunk < reuse.moved_count; chunk += CHUNK) {
+        tile_list(chunk, reuse.moved_count);
+        uint count = wanted ? tile_count : 0u;
+        for (uint i = 0u; i < count && sum <= reuse.error; i++)
+            sum += change_by(tile_items[i], since, position, plane_from_view);
+    }
+    return !(sum <= reuse.error); // true for NaN
+}
+
+// The age by which a pixel comes in its turn, and the frames since it was traced, which are no more.
+uint ages_packed(uint age, uint since)
+{
+    return age | since << 4;
+}
+
 // A tile's pixels come in turns. One that is traced out of turn is traced again when its tile's turn comes, so that each frame keeps
 // its share of the work.
 uint age_out_of_turn()
@@ -121,23 +165,27 @@ void main()
     bool on_image = is_wanted(pixel);
     float depth = on_image ? fetch_trace(depth_texture, pixel).r : 0.0, visibility = 1.0;
     bool seen = depth > 0.0, traced = seen;
-    uint age = age_out_of_turn();
+    uint age = age_out_of_turn(), since = 0u;
     vec3 position = view_position(pixel, depth);
     vec3 normal = on_image ? nook_octahedral_decode(fetch_trace(normal_texture, pixel).xy) : vec3(0.0, 0.0, 1.0);
     vec3 before = rows_apply(reuse.before_from_view, vec4(position, 1.0));
     if (seen && reuse.has_before != 0 && predecessor(pixel, before, normal, q)) {
         visibility = fetch_trace(visibility_before, q).r;
-        age = texelFetch(age_before, q, 0).r + 1u;
+        uint ages = texelFetch(age_before, q, 0).r;
+        age = (ages & 15u) + 1u;
+        since = (ages >> 4) + 1u;
         traced = age >= uint(reuse.period);
         age = traced ? 0u : age;
     }
-    if (tile_begin(depth, position) && near_what_moved(seen && !traced, position, normal)) {
+    bool lasts = seen && !traced;
+    if (tile_begin(depth, position) && (reuse.error > 0.0 ? may_have_changed(lasts, int(since), position, normal)
+                                                          : near_what_moved(lasts, position, normal))) {
         traced = true;
         age = age_out_of_turn();
     }
     if (on_image) {
         imageStore(visibility_image, pixel, vec4(visibility));
-        imageStore(age_image, pixel, uvec4(age));
+        imageStore(age_image, pixel, uvec4(ages_packed(age, traced ? 0u : since)));
     }
     list_pixels(traced);
     add_counts();
