@@ -10,9 +10,10 @@ float arc_sweeps(vec3 a, vec3 b)
 {
     float scale = inversesqrt(max(dot(a, a) * dot(b, b), 1e-30)), cosine = dot(a, b) * scale, y = abs(cosine);
     float ratio = (0.8543985 + (0.4965155 + 0.0145206 * y) * y) / (3.4175940 + (4.1616724 + y) * y);
+    vec3 across = cross(a, b) * scale; // as long as the sine: 1 - y^2 would lose it for arcs of nearly half a turn
     if (cosine < 0.0)
-        ratio = 0.5 * inversesqrt(max(1.0 - y * y, 1e-7)) - ratio;
-    return (a.x * b.y - a.y * b.x) * scale * ratio;
+        ratio = 0.5 * inversesqrt(max(dot(across, across), 1e-30)) - ratio;
+    return across.z * ratio;
 }
 
 float edge_sweeps(vec3 a, vec3 b)
