@@ -160,6 +160,9 @@ static void test_whatever_is_marched_is_bounded(void **state)
 {
     static const char *const kinds[] = { "surfel", "distance" };
     nook_fixture_view *view = *state;
+    ao_view_param(view, "volume.guard", "seen");
+    expect_bounded(view, "guard = seen", all_walk, 4);
+    ao_view_param(view, "volume.guard", "lifted");
     ao_view_param(view, "volume.combine", "multiply");
     ao_view_param(view, "ao.falloff", "linear");
     for (size_t i = 0; i < NOOK_COUNT(kinds); i++) {
