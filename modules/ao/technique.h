@@ -21,7 +21,6 @@ typedef struct nook_ao_box {
     uint32_t origin[3], size[3];
 } nook_ao_box;
 
-enum { NOOK_AO_CHANGES_MAX = 8 };
 #define NOOK_AO_CHANGED_ALL UINT32_MAX
 
 /** Triangles for the reference, in mesh space. */
@@ -84,7 +83,8 @@ typedef struct nook_ao_pass {
     nook_texture volume_atlas; /**< R8 3D, of the kind that is marched, but for surfels. Binding 2. */
     uint32_t
         volume_atlas_version; /**< Another one when the atlas, or what it holds, is another: for what is made of it. */
-    /** Where the atlas has changed since the version before, if it is as large as it was then; NOOK_AO_CHANGED_ALL: anywhere. */
+    /** Where the atlas has changed since the version before; of another texture, of other sides maybe, all boxes that hold volumes.
+        NOOK_AO_CHANGED_ALL: anywhere. */
     uint32_t volume_atlas_change_count;
     const nook_ao_box *volume_atlas_changes;
     nook_texture bricks;  /**< Texture buffer RGBA32UI, of all surfel volumes: docs/surfel_bricks.md. Binding 5. */

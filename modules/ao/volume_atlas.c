@@ -15,6 +15,8 @@ void volume_atlas_release(volume_atlas *atlas)
         free(atlas->seen.items[i].pending);
     free(atlas->seen.items);
     free(atlas->incoming.items);
+    free(atlas->changes.boxes);
+    free(atlas->next.boxes);
     box_tree_release(&atlas->tree);
     if (atlas->gpu)
         nook_texture_destroy(atlas->gpu, &atlas->texture);
@@ -38,11 +40,27 @@ bool atlas_entries_reserve(atlas_entries *entries, uint32_t count)
     return true;
 }
 
+static bool reserve_changes(atlas_changes *changes, uint32_t capacity)
+{
+    if (changes->capacity >= capacity)
+        return true;
+    nook_ao_box *grown = realloc(changes->boxes, capacity * sizeof *grown);
+    if (!grown)
+        return false;
+    changes->boxes = grown;
+    changes->capacity = capacity;
+    return true;
+}
+
 bool volume_atlas_reserve(volume_atlas *atlas)
 {
     uint32_t more = atlas->incoming.count + 1;
-    return atlas_entries_reserve(&atlas->incoming, more) &&
-           atlas_entries_reserve(&atlas->seen, atlas->seen.count + more);
+    if (!atlas_entries_reserve(&atlas->incoming, more) ||
+        !atlas_entries_reserve(&atlas->seen, atlas->seen.count + more))
+        return false;
+    uint32_t boxes =
+        atlas->incoming.capacity + atlas->seen.capacity; /* each once; a frame in which all come also renews */
+    return reserve_changes(&atlas->changes, 2 * boxes) && reserve_changes(&atlas->next, 2 * boxes);
 }
 
 /** Once nothing is left (a level is over), all of it goes, and its memory with it. */
@@ -137,20 +155,38 @@ void volume_atlas_set_info(volume_atlas *atlas, uint32_t id, const nook_volume_i
 void volume_atlas_note(volume_atlas *atlas, const atlas_box *box)
 {
     atlas_changes *next = &atlas->next;
-    if (next->count >= NOOK_AO_CHANGES_MAX) {
+    if (next->count >= next->capacity) {
         next->count = NOOK_AO_CHANGED_ALL;
         return;
     }
     next->boxes[next->count++] = *box;
 }
 
+void volume_atlas_note_renewed(volume_atlas *atlas)
+{
+    atlas->next.count = 0;
+    atlas->next.renewed = true;
+    for (uint32_t i = 0; i < atlas->seen.count; i++)
+        if (!atlas->seen.items[i].pending) /* else it is noted when it is written */
+            volume_atlas_note(atlas, &atlas->seen.items[i].box);
+    for (uint32_t i = 0; i < atlas->incoming.count; i++) {
+        atlas_box part = atlas->incoming.items[i].box;
+        part.size[2] = atlas->incoming.items[i].written;
+        if (part.size[2] > 0)
+            volume_atlas_note(atlas, &part);
+    }
+}
+
 /* What has changed makes a version. */
 static void publish(volume_atlas *atlas)
 {
-    if (atlas->next.count == 0)
+    atlas_changes last = atlas->changes;
+    if (atlas->next.count == 0 && !atlas->next.renewed)
         return;
     atlas->changes = atlas->next;
+    atlas->next = last;
     atlas->next.count = 0;
+    atlas->next.renewed = false;
     atlas->version++;
 }
 
@@ -170,7 +206,7 @@ nook_result volume_atlas_grow(volume_atlas *atlas)
         nook_texture_destroy(gpu, &old);
     }
     atlas->texture = grown;
-    atlas->next.count = NOOK_AO_CHANGED_ALL;
+    volume_atlas_note_renewed(atlas);
     return NOOK_OK;
 }
 

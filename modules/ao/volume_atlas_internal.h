@@ -29,8 +29,9 @@ typedef struct atlas_entries {
 
 /** Where the texture's contents have changed. */
 typedef struct atlas_changes {
-    nook_ao_box boxes[NOOK_AO_CHANGES_MAX];
-    uint32_t count; /**< NOOK_AO_CHANGED_ALL: anywhere. */
+    nook_ao_box *boxes;       /**< Owned. */
+    uint32_t count, capacity; /**< count NOOK_AO_CHANGED_ALL: anywhere. */
+    bool renewed;             /**< The texture is another: these are all boxes that hold something. */
 } atlas_changes;
 
 typedef struct volume_atlas {
@@ -81,6 +82,8 @@ void volume_atlas_release_when_empty(volume_atlas *atlas);          /**< Its mem
 bool atlas_entries_reserve(atlas_entries *entries, uint32_t count); /**< @return false: no memory */
 /** Notes that a box's texels are others. */
 void volume_atlas_note(volume_atlas *atlas, const atlas_box *box);
+/** Notes that the texture is another, which holds what was in the one before. */
+void volume_atlas_note_renewed(volume_atlas *atlas);
 /** Puts an entry among those that are seen, into the place of the one of its id if there is one. Else there must be room for it. */
 void volume_atlas_put(volume_atlas *atlas, const atlas_entry *entry);
 /** For one entry more, now or once all that comes is whole. @return false: no memory */

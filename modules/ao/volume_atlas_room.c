@@ -148,8 +148,8 @@ static void take_over(volume_atlas *atlas, const box_tree *tree, const nook_text
     atlas->tree = *tree;
     atlas->seen.count = settled;
     atlas->incoming.count = 0;
-    atlas->next.count = NOOK_AO_CHANGED_ALL;
     atlas->has_room = true;
+    volume_atlas_note_renewed(atlas);
 }
 
 static nook_result move_to(volume_atlas *atlas, const uint32_t sides[3], atlas_box *boxes, uint32_t *places)

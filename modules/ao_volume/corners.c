@@ -50,8 +50,9 @@ nook_result volume_corners_fit(volume_corners *corners, const nook_ao_pass *pass
     nook_program program;
     if (corners->texture.id != 0 && corners->version == pass->volume_atlas_version)
         return NOOK_OK;
-    bool follows = corners->texture.id != 0 && corners->version + 1 == pass->volume_atlas_version &&
-                   pass->volume_atlas_change_count != NOOK_AO_CHANGED_ALL;
+    /* Nobody reads between the boxes of volumes. The first version has changed wherever there is something. */
+    bool follows =
+        corners->version + 1 == pass->volume_atlas_version && pass->volume_atlas_change_count != NOOK_AO_CHANGED_ALL;
     nook_result result = make_room(corners, pass);
     if (result == NOOK_OK)
         result = nook_program_compute(gpu, "shaders/ao/corners.comp.glsl", "", &program);

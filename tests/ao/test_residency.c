@@ -209,12 +209,39 @@ static void fit_corners(volume_corners *corners, volume_atlas *atlas)
     assert_int_equal(volume_corners_fit(corners, &pass), NOOK_OK);
 }
 
+/* Of the boxes of volumes, and of the cells before them, in whatever room: nobody reads others. */
+static void expect_the_same_corners(volume_atlas *atlas, const volume_corners *parts)
+{
+    volume_corners whole = { 0 };
+    const uint32_t width = atlas->texture.width, height = atlas->texture.height;
+    const nook_ao_pass pass = { .gpu = atlas->gpu,
+                                .volume_atlas = atlas->texture,
+                                .volume_atlas_version = atlas->version,
+                                .volume_atlas_change_count = NOOK_AO_CHANGED_ALL };
+    assert_int_equal(volume_corners_fit(&whole, &pass), NOOK_OK);
+    uint8_t *a = malloc(parts->buffer.size), *b = malloc(whole.buffer.size);
+    assert_true(a && b && parts->buffer.size == whole.buffer.size);
+    nook_buffer_read(atlas->gpu, parts->buffer, 0, a, parts->buffer.size);
+    nook_buffer_read(atlas->gpu, whole.buffer, 0, b, whole.buffer.size);
+    for (uint32_t i = 0; i < atlas->seen.count; i++) {
+        const atlas_box *box = &atlas->seen.items[i].box;
+        for (uint32_t z = box->origin[2] - (box->origin[2] > 0); z < box->origin[2] + box->size[2]; z++)
+            for (uint32_t y = box->origin[1] - (box->origin[1] > 0); y < box->origin[1] + box->size[1]; y++)
+                for (uint32_t x = box->origin[0] - (box->origin[0] > 0); x < box->origin[0] + box->size[0]; x++)
+                    if (a[(z * height + y) * width + x] != b[(z * height + y) * width + x])
+                        fail_msg("volume %u, cell (%u, %u, %u)", atlas->seen.items[i].id, x, y, z);
+    }
+    free(a);
+    free(b);
+    volume_corners_release(&whole, atlas->gpu);
+}
+
 static void test_corners_made_part_by_part_are_those_made_at_once(void **state)
 {
     const uint32_t sides[3] = { 40, 24, 64 };
     nook_gpu *gpu = test_gpu_of(state);
     volume_atlas atlas;
-    volume_corners parts = { 0 }, whole = { 0 };
+    volume_corners parts = { 0 };
     volume_atlas_init(&atlas, gpu);
     assert_int_equal(volume_atlas_set_room(&atlas, sides), NOOK_OK);
     nook_volume nothing = voxels_of(sides[0], sides[1], sides[2], 0); /* what is undefined may not differ by chance */
@@ -234,17 +261,62 @@ static void test_corners_made_part_by_part_are_those_made_at_once(void **state)
         }
         nook_volume_free(&volume);
     }
-    fit_corners(&whole, &atlas);
-    uint8_t *a = malloc(parts.buffer.size), *b = malloc(whole.buffer.size);
-    assert_true(a && b && parts.buffer.size == whole.buffer.size);
-    nook_buffer_read(gpu, parts.buffer, 0, a, parts.buffer.size);
-    nook_buffer_read(gpu, whole.buffer, 0, b, whole.buffer.size);
-    assert_memory_equal(a, b, whole.buffer.size);
-    free(a);
-    free(b);
+    expect_the_same_corners(&atlas, &parts);
     nook_volume_free(&nothing);
     volume_corners_release(&parts, gpu);
-    volume_corners_release(&whole, gpu);
+    volume_atlas_release(&atlas);
+}
+
+/* Puts a volume in, whole, with corners after each part. */
+static void bring(volume_atlas *atlas, volume_corners *corners, uint32_t id, uint32_t side)
+{
+    nook_volume volume = voxels_of(side, side + 1, side + 2, (uint8_t)(120 + id));
+    bool done = false;
+    assert_true(volume_atlas_place(atlas, id, &volume.info));
+    while (!done) {
+        assert_int_equal(volume_atlas_grow(atlas), NOOK_OK);
+        volume_atlas_write(atlas, id, volume.voxels, 900, &done);
+        assert_int_equal(volume_atlas_flush(atlas), NOOK_OK);
+        fit_corners(corners, atlas);
+    }
+    nook_volume_free(&volume);
+}
+
+static void test_corners_of_another_texture_are_made_of_what_it_holds_alone(void **state)
+{
+    const uint32_t sides[3] = { 64, 48, 64 }, fewer[3] = { 48, 64, 64 }; /* as many voxels */
+    nook_gpu *gpu = test_gpu_of(state);
+    volume_atlas atlas;
+    volume_corners corners = { 0 };
+    volume_atlas_init(&atlas, gpu);
+    for (uint32_t i = 1; i <= 4; i++) { /* each makes it grow */
+        bring(&atlas, &corners, i, 9 + i);
+        expect_the_same_corners(&atlas, &corners);
+    }
+    nook_volume half = voxels_of(12, 12, 12, 255);
+    bool done;
+    assert_true(volume_atlas_place(&atlas, 5, &half.info));
+    assert_int_equal(volume_atlas_grow(&atlas), NOOK_OK);
+    assert_true(volume_atlas_write(&atlas, 5, half.voxels, 600, &done) > 0 && !done);
+    bring(&atlas, &corners, 6, 20); /* grows, while a part of another has been written */
+    volume_atlas_write(&atlas, 5, half.voxels, SIZE_MAX, &done);
+    assert_true(done);
+    assert_int_equal(volume_atlas_flush(&atlas), NOOK_OK);
+    fit_corners(&corners, &atlas);
+    expect_the_same_corners(&atlas, &corners);
+    for (int turn = 0; turn < 2; turn++) {
+        uint64_t cells = 0;
+        assert_int_equal(volume_atlas_set_room(&atlas, turn ? fewer : sides), NOOK_OK);
+        assert_int_equal(volume_atlas_flush(&atlas), NOOK_OK);
+        assert_int_equal(atlas.changes.count, 6);
+        for (uint32_t i = 0; i < atlas.changes.count; i++)
+            cells += box_voxels(atlas.changes.boxes[i].size);
+        assert_true(cells < 64 * 48 * 64 / 4);
+        fit_corners(&corners, &atlas);
+        expect_the_same_corners(&atlas, &corners);
+    }
+    nook_volume_free(&half);
+    volume_corners_release(&corners, gpu);
     volume_atlas_release(&atlas);
 }
 
@@ -339,6 +411,7 @@ int main(void)
         cmocka_unit_test(test_a_volume_is_seen_when_its_last_slice_is_there_and_the_old_one_until_then),
         cmocka_unit_test(test_a_room_does_not_grow_and_another_one_keeps_what_fits),
         cmocka_unit_test(test_corners_made_part_by_part_are_those_made_at_once),
+        cmocka_unit_test(test_corners_of_another_texture_are_made_of_what_it_holds_alone),
         cmocka_unit_test(test_surfels_come_in_parts_and_find_their_bricks_in_another_room),
     };
     return cmocka_run_group_tests(tests, test_gpu_setup, test_gpu_teardown);
