@@ -9,7 +9,7 @@ extern "C" {
 #endif
 
 /** Raise it when the surfels of the same triangles change: cached ones of older versions are then baked again. */
-#define NOOK_SURFEL_BAKE_VERSION 1u
+#define NOOK_SURFEL_BAKE_VERSION 2u
 
 /** A volume of the same grid, and a byte for each of its bricks: 0 where it stays as it was. */
 typedef struct nook_surfel_before {

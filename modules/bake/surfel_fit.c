@@ -1,5 +1,6 @@
 #include "modules/bake/surfel_fit.h"
 #include "engine/core/vector.h"
+#include "modules/bake/surfel_extent.h"
 #include "modules/bake/surfel_word.h"
 #include <math.h>
 
@@ -128,10 +129,9 @@ static nook_surfel_side side_of(const nook_surfel_bin *sum, const plane *other)
     return mean >= 0.0 ? NOOK_SIDE_ABOVE : NOOK_SIDE_BELOW;
 }
 
-/* Area of the plane in the voxel as triangles are cut by it, on its side of the other. */
-static double section_area(const plane *p, double bias, nook_surfel_side side, const plane *other)
+/* The plane in the voxel as triangles are cut by it, on its side of the other. */
+static nook_polygon section_of(const plane *p, double bias, nook_surfel_side side, const plane *other)
 {
-    const double centre[3] = { 0.0, 0.0, 0.0 };
     nook_polygon section, rest;
     nook_polygon_of_cube(p->normal, p->offset, -0.5 - bias, &section);
     if (side != NOOK_SIDE_BOTH) {
@@ -140,20 +140,116 @@ static double section_area(const plane *p, double bias, nook_surfel_side side, c
         nook_polygon_clip(&section, inwards, sign * other->offset, &rest);
         section = rest;
     }
-    return nook_polygon_measure(&section, p->normal, centre).area;
+    return section;
 }
 
-/* Coverage in steps, 0 to NOOK_SURFEL_ALPHA_MAX. Area counts as it is seen along the plane's normal. */
-static uint32_t coverage(const nook_surfel_bin *sum, const plane *p, double section)
+static double area_of(const nook_polygon *section, const plane *p)
 {
-    double seen = fabs(nook_vector_dot(sum->normal, p->normal));
-    double part = section > 0.0 ? fmin(seen / section, 1.0) : 1.0;
-    return (uint32_t)lround(part * NOOK_SURFEL_ALPHA_MAX);
+    const double centre[3] = { 0.0, 0.0, 0.0 };
+    return nook_polygon_measure(section, p->normal, centre).area;
 }
 
-static uint32_t pack(const nook_surfel_bin *sum, const plane *p, uint32_t alpha, nook_surfel_side side)
+/* Of the section within the extent; its ends at the voxel's faces cut nothing. */
+static double area_within(const nook_polygon *section, const plane *p, const nook_surfel_extent *extent)
 {
-    nook_surfel_plane packed = { .alpha = alpha, .side = side };
+    nook_polygon left = *section, rest;
+    for (int axis = 0; axis < 3; axis++) {
+        double inwards[3] = { 0.0, 0.0, 0.0 };
+        inwards[axis] = 1.0;
+        if (extent->low[axis] > -0.5) {
+            nook_polygon_clip(&left, inwards, extent->low[axis], &rest);
+            left = rest;
+        }
+        inwards[axis] = -1.0;
+        if (extent->high[axis] < 0.5) {
+            nook_polygon_clip(&left, inwards, -extent->high[axis], &rest);
+            left = rest;
+        }
+    }
+    return area_of(&left, p);
+}
+
+/* Area as it is seen along the plane's normal. */
+static double seen_area(const nook_surfel_bin *sum, const plane *p)
+{
+    return fabs(nook_vector_dot(sum->normal, p->normal));
+}
+
+static double covered_part(double seen, double section)
+{
+    return section > 0.0 ? fmin(seen / section, 1.0) : 1.0;
+}
+
+/* Where the area lies along each axis: an even strip ends sqrt(3) standard deviations from its middle. */
+static nook_surfel_extent extent_of(const nook_surfel_bin *sum)
+{
+    nook_surfel_extent extent;
+    for (int axis = 0; axis < 3; axis++) {
+        double mean = sum->first[axis] / sum->area;
+        double reach = sqrt(3.0 * fmax(sum->second[axis] / sum->area - mean * mean, 0.0));
+        extent.low[axis] = fmax(mean - reach, -0.5);
+        extent.high[axis] = fmin(mean + reach, 0.5);
+    }
+    return extent;
+}
+
+/*
+ * Rays that meet a plane of alpha a are wrong by a for 1 - a of its area and by 1 - a for a of it: squared and summed, this. What lies
+ * outside of the section is missed.
+ */
+static double wrong_area(double seen, double section, double alpha)
+{
+    return section * alpha * (1.0 - alpha) + fmax(seen - section, 0.0);
+}
+
+static uint32_t steps_of(double alpha)
+{
+    return (uint32_t)lround(alpha * NOOK_SURFEL_ALPHA_MAX);
+}
+
+/* A plane by itself: the box that it lies in, where that says better than coverage what is there. @return the second word; alpha 0: nothing */
+static uint32_t choose_box(const nook_surfel_bin *sum, const plane *p, double bias, uint32_t *alpha)
+{
+    nook_surfel_extent wanted = extent_of(sum), box;
+    nook_polygon section = section_of(p, bias, NOOK_SIDE_BOTH, NULL);
+    double seen = seen_area(sum, p), all = area_of(&section, p), part = covered_part(seen, all);
+    *alpha = steps_of(part);
+    if (*alpha == 0 || *alpha == NOOK_SURFEL_ALPHA_MAX)
+        return 0;
+    uint32_t word = nook_surfel_box_pack(&wanted, &box);
+    double within = area_within(&section, p, &box), part_within = covered_part(seen, within);
+    if (!(wrong_area(seen, within, part_within) < wrong_area(seen, all, part)))
+        return 0;
+    *alpha = steps_of(part_within);
+    return word;
+}
+
+/* One of two planes, which has no room for both: an interval, all of which is there, or a side and coverage. */
+static void choose_end(const nook_surfel_bin *sum, const plane *p, const plane *other, double bias, nook_surfel_plane *out)
+{
+    nook_surfel_extent wanted = extent_of(sum), interval;
+    nook_polygon section;
+    nook_surfel_side side = side_of(sum, other);
+    section = section_of(p, bias, side, other);
+    double seen = seen_area(sum, p), all = area_of(&section, p), part = covered_part(seen, all);
+    *out = (nook_surfel_plane){ .alpha = steps_of(part), .side = side };
+    if (out->alpha == 0 || out->alpha == NOOK_SURFEL_ALPHA_MAX)
+        return;
+    double least = wrong_area(seen, all, part);
+    section = section_of(p, bias, NOOK_SIDE_BOTH, NULL);
+    for (int axis = 0; axis < 3; axis++) {
+        uint32_t code = nook_surfel_interval_pack(&wanted, axis, &interval);
+        double wrong = fabs(area_within(&section, p, &interval) - seen);
+        if (wrong < least) {
+            least = wrong;
+            *out = (nook_surfel_plane){ .alpha = NOOK_SURFEL_ALPHA_MAX, .side = NOOK_SIDE_WITHIN, .interval = code };
+        }
+    }
+}
+
+static uint32_t pack(const nook_surfel_bin *sum, const plane *p, const nook_surfel_plane *ends)
+{
+    nook_surfel_plane packed = *ends;
     double through[3];
     for (int i = 0; i < 3; i++) {
         packed.normal[i] = p->normal[i];
@@ -165,27 +261,25 @@ static uint32_t pack(const nook_surfel_bin *sum, const plane *p, uint32_t alpha,
 static bool fit_one(const nook_surfel_bin *sum, double bias, nook_surfel *out)
 {
     plane p = plane_of(sum);
-    uint32_t alpha = coverage(sum, &p, section_area(&p, bias, NOOK_SIDE_BOTH, NULL));
-    if (alpha == 0)
+    nook_surfel_plane ends = { .side = NOOK_SIDE_BOTH };
+    uint32_t box = choose_box(sum, &p, bias, &ends.alpha);
+    if (ends.alpha == 0)
         return false;
-    *out = (nook_surfel){ { pack(sum, &p, alpha, NOOK_SIDE_BOTH), 0 } };
+    *out = (nook_surfel){ { pack(sum, &p, &ends), box } };
     return true;
 }
 
 static bool fit_two(const nook_surfel_bin sums[2], double bias, nook_surfel *out)
 {
-    uint32_t alpha[2];
-    nook_surfel_side side[2];
+    nook_surfel_plane ends[2];
     plane planes[2] = { plane_of(&sums[0]), plane_of(&sums[1]) };
-    for (int k = 0; k < 2; k++) {
-        side[k] = side_of(&sums[k], &planes[1 - k]);
-        alpha[k] = coverage(&sums[k], &planes[k], section_area(&planes[k], bias, side[k], &planes[1 - k]));
-    }
     for (int k = 0; k < 2; k++)
-        if (alpha[k] == 0) /* too little to be told from nothing */
+        choose_end(&sums[k], &planes[k], &planes[1 - k], bias, &ends[k]);
+    for (int k = 0; k < 2; k++)
+        if (ends[k].alpha == 0) /* too little to be told from nothing */
             return fit_one(&sums[1 - k], bias, out);
     for (int k = 0; k < 2; k++)
-        out->plane[k] = pack(&sums[k], &planes[k], alpha[k], side[k]);
+        out->plane[k] = pack(&sums[k], &planes[k], &ends[k]);
     return true;
 }
 

@@ -1,5 +1,6 @@
 #include "modules/bake/surfel_word.h"
 #include "engine/core/vector.h"
+#include "modules/bake/surfel_extent.h"
 #include <assert.h>
 #include <math.h>
 
@@ -62,12 +63,13 @@ static uint32_t encode(const double normal[3], double out_normal[3])
 
 uint32_t nook_surfel_pack(const nook_surfel_plane *plane, const double through[3])
 {
-    assert(plane->alpha >= 1 && plane->alpha <= NOOK_SURFEL_ALPHA_MAX);
+    uint32_t six = plane->side == NOOK_SIDE_WITHIN ? plane->interval : plane->alpha;
+    assert(plane->side == NOOK_SIDE_WITHIN ? six < NOOK_EXTENT_CODES : six >= 1 && six <= NOOK_SURFEL_ALPHA_MAX);
     double normal[3] = { 0.0, 0.0, 1.0 };
     uint32_t word = encode(plane->normal, normal);
     double offset = nook_vector_dot(normal, through);
     return word | byte_of(within(round(offset * (STEPS / NOOK_SURFEL_OFFSET_MAX))), AT_OFFSET) |
-           plane->alpha << AT_ALPHA | (uint32_t)plane->side << AT_SIDE;
+           six << AT_ALPHA | (uint32_t)plane->side << AT_SIDE;
 }
 
 nook_surfel_plane nook_surfel_unpack(uint32_t word)
@@ -75,19 +77,29 @@ nook_surfel_plane nook_surfel_unpack(uint32_t word)
     nook_surfel_plane plane = { .offset = byte_at(word, AT_OFFSET) * (NOOK_SURFEL_OFFSET_MAX / STEPS),
                                 .alpha = word >> AT_ALPHA & NOOK_SURFEL_ALPHA_MAX,
                                 .side = (nook_surfel_side)(word >> AT_SIDE) };
+    if (plane.side == NOOK_SIDE_WITHIN) {
+        plane.interval = plane.alpha;
+        plane.alpha = NOOK_SURFEL_ALPHA_MAX;
+    }
     decode(byte_at(word, 0), byte_at(word, 8), plane.normal);
     return plane;
 }
 
+bool nook_surfel_word_is_plane(uint32_t word)
+{
+    return word >> AT_ALPHA != 0;
+}
+
 static bool is_plane(uint32_t word)
 {
-    return byte_at(word, 0) >= -STEPS && byte_at(word, 8) >= -STEPS && byte_at(word, AT_OFFSET) >= -STEPS &&
-           (word >> AT_ALPHA & NOOK_SURFEL_ALPHA_MAX) != 0 && word >> AT_SIDE <= NOOK_SIDE_BELOW;
+    uint32_t six = word >> AT_ALPHA & NOOK_SURFEL_ALPHA_MAX;
+    bool ends = word >> AT_SIDE == NOOK_SIDE_WITHIN ? six < NOOK_EXTENT_CODES : six != 0;
+    return byte_at(word, 0) >= -STEPS && byte_at(word, 8) >= -STEPS && byte_at(word, AT_OFFSET) >= -STEPS && ends;
 }
 
 bool nook_surfel_is_sound(uint32_t first, uint32_t second)
 {
-    if (second == 0)
-        return is_plane(first) && first >> AT_SIDE == NOOK_SIDE_BOTH;
+    if (!nook_surfel_word_is_plane(second))
+        return is_plane(first) && first >> AT_SIDE == NOOK_SIDE_BOTH && nook_surfel_is_box(second);
     return is_plane(first) && is_plane(second);
 }

@@ -4,14 +4,20 @@
 #include "ao/counter.glsl"
 #include "ao/passage.glsl"
 layout(binding = 5) uniform usamplerBuffer bricks;  // mask low, mask high, first surfel, distance to the next occupied brick
-layout(binding = 6) uniform usamplerBuffer surfels; // two planes; the second may be 0
+layout(binding = 6) uniform usamplerBuffer surfels; // two planes, or one and its box
 
 const int BRICK = 4;
 const float OFFSET_STEP = 0.87 / 127.0; // modules/bake/surfel_word.h
 const float ALPHA_STEP = 1.0 / 63.0;
-const uint SIDE_ABOVE = 1u;
-// Voxels by which a plane reaches past the other one that it ends at: what rounding to bytes may leave open between the two.
+const uint SIDE_ABOVE = 1u, SIDE_WITHIN = 3u;
+const float BOX_STEPS = 16.0, INTERVAL_STEPS = 6.0; // modules/bake/surfel_extent.h
+const uint POINTS = 7u, PAIRS = 21u;
+const float UNCUT = 8.0; // voxels: an extent that ends at a face of the voxel reaches on, as far as the ray's way through it says
+// Voxels by which a plane reaches past where it ends inside of its voxel: what rounding may leave open there.
 const float SIDE_SLACK = 0.04;
+// A plane that stands for two sheets a quarter voxel apart lies half of that from either: what faces exactly like the receiver and is
+// farther away is another sheet. A curved surface turns by an angle within a voxel and leaves its tangent plane by half of that.
+const float OWN_FLAT = 0.15, OWN_CURVED = 0.5;
 const float FACES_ALIKE = 0.6; // cosine from which a plane may be the receiver's own: the normals of a voxel's two planes differ
 const float PARALLEL = 1e-6;   // cosine
 
@@ -36,7 +42,34 @@ vec4 plane_of(uint word)
 
 float alpha_of(uint word)
 {
-    return float((word >> 24) & 63u) * ALPHA_STEP;
+    return word >> 30 == SIDE_WITHIN ? 1.0 : float((word >> 24) & 63u) * ALPHA_STEP;
+}
+
+// What of a voxel a plane may be in, from the voxel's middle.
+struct Extent {
+    vec3 low, high;
+};
+
+// Of a surfel's only plane, by its second word; 0 is all of the voxel.
+Extent box_of(uint word)
+{
+    vec3 low = vec3(word & 15u, word >> 4 & 15u, word >> 8 & 15u);
+    vec3 high = vec3(word >> 12 & 15u, word >> 16 & 15u, word >> 20 & 15u);
+    return Extent(mix(low / BOX_STEPS - 0.5, vec3(-UNCUT), equal(low, vec3(0.0))),
+                  mix(0.5 - high / BOX_STEPS, vec3(UNCUT), equal(high, vec3(0.0))));
+}
+
+// Of one of two planes: an interval of one axis, or all.
+Extent interval_of(uint word)
+{
+    uint code = (word >> 24) & 63u, place = code % POINTS, other = (place + code / POINTS % 3u + 1u) % POINTS;
+    uint low = min(place, other), high = max(place, other);
+    bvec3 cut = bvec3(word >> 30 == SIDE_WITHIN);
+    bvec3 along = equal(uvec3(code / PAIRS), uvec3(0u, 1u, 2u));
+    cut = bvec3(cut.x && along.x, cut.y && along.y, cut.z && along.z);
+    float from = low == 0u ? -UNCUT : float(low) / INTERVAL_STEPS - 0.5;
+    float to = high == POINTS - 1u ? UNCUT : float(high) / INTERVAL_STEPS - 0.5;
+    return Extent(mix(vec3(-UNCUT), vec3(from), cut), mix(vec3(UNCUT), vec3(to), cut));
 }
 
 // The surface that the fragment itself lies on never occludes it: a plane that faces like it, of which it is not far, and which the
@@ -44,18 +77,21 @@ float alpha_of(uint word)
 bool is_own(vec4 plane, vec3 point, vec3 normal, float slope)
 {
     float facing = dot(plane.xyz, normal), height = dot(plane.xyz, point) - plane.w;
-    return abs(facing) > FACES_ALIKE && abs(height) < params.own_distance && (facing < 0.0 ? -slope : slope) > 0.0;
+    float most = min(params.own_distance, OWN_FLAT + OWN_CURVED * sqrt(max(1.0 - facing * facing, 0.0)));
+    return abs(facing) > FACES_ALIKE && abs(height) < most && (facing < 0.0 ? -slope : slope) > 0.0;
 }
 
 // Where the ray meets a plane of a voxel that it crosses from `enter` to `leave`, or -1. origin, point: from the voxel's middle.
-float hit_plane(uint word, vec4 plane, vec4 other, Ray ray, vec3 origin, vec3 point, float enter, float leave)
+float hit_plane(uint word, vec4 plane, vec4 other, Extent extent, Ray ray, vec3 origin, vec3 point, float enter, float leave)
 {
     float slope = dot(plane.xyz, ray.along), h = (plane.w - dot(plane.xyz, origin)) / slope;
     bool hit = abs(slope) > PARALLEL && h > 0.0 && h < ray.reach && h >= enter - params.tolerance &&
                h <= leave + params.tolerance;
     uint side = word >> 30;
-    if (side != 0u) {
-        float beyond = dot(other.xyz, origin + ray.along * h) - other.w;
+    vec3 at = origin + ray.along * h;
+    hit = hit && all(greaterThanEqual(at, extent.low - SIDE_SLACK)) && all(lessThanEqual(at, extent.high + SIDE_SLACK));
+    if (side != 0u && side != SIDE_WITHIN) {
+        float beyond = dot(other.xyz, at) - other.w;
         hit = hit && (side == SIDE_ABOVE ? beyond : -beyond) >= -SIDE_SLACK;
     }
     return hit && !is_own(plane, point, ray.normal, slope) ? h : -1.0;
@@ -75,10 +111,12 @@ void meet_surfel(uint index, vec3 middle, Ray ray, float enter, float leave, ino
 {
     uvec2 words = fetch_record(surfels, int(index)).xy;
     vec3 origin = ray.origin - middle, point = ray.point - middle;
-    vec4 first = plane_of(words.x), second = words.y == 0u ? first : plane_of(words.y);
-    float a = hit_plane(words.x, first, second, ray, origin, point, enter, leave), b = -1.0;
-    if (words.y != 0u)
-        b = hit_plane(words.y, second, first, ray, origin, point, enter, leave);
+    bool two = words.y >> 24 != 0u;
+    vec4 first = plane_of(words.x), second = two ? plane_of(words.y) : first;
+    Extent extent = two ? interval_of(words.x) : box_of(words.y);
+    float a = hit_plane(words.x, first, second, extent, ray, origin, point, enter, leave), b = -1.0;
+    if (two)
+        b = hit_plane(words.y, second, first, interval_of(words.y), ray, origin, point, enter, leave);
     float alpha_a = alpha_of(words.x), alpha_b = alpha_of(words.y);
     bool swapped = b >= 0.0 && b < a;
     pass_plane(swapped ? b : a, swapped ? alpha_b : alpha_a, ray, passage);

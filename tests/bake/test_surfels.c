@@ -2,6 +2,7 @@
 #include "engine/core/log.h"
 #include "engine/core/vector.h"
 #include "modules/bake/brick_grid.h"
+#include "modules/bake/surfel_extent.h"
 #include "tests/support/surfel_shapes.h"
 #include "tests/support/voxel_shapes.h"
 #include <math.h>
@@ -77,9 +78,65 @@ static void test_words_that_no_plane_has_are_refused(void **state)
     assert_false(nook_surfel_is_sound(good | 0x80u, 0)); /* -128 */
     assert_false(nook_surfel_is_sound(good | 0x8000u, 0));
     assert_false(nook_surfel_is_sound(good | 0x800000u, 0));
-    assert_false(nook_surfel_is_sound(good | 3u << 30, good)); /* no such side */
-    assert_false(nook_surfel_is_sound(good | 1u << 30, 0));    /* a side of nothing */
-    assert_false(nook_surfel_is_sound(good, 3u << 30 | good));
+    assert_false(nook_surfel_is_sound(good | 1u << 30, 0)); /* a side of nothing */
+    assert_false(nook_surfel_is_sound(good | 3u << 30, 0)); /* an interval with room for a box */
+    assert_true(nook_surfel_is_sound(good | 3u << 30, 62u << 24 | 3u << 30));
+    assert_false(nook_surfel_is_sound(good, 63u << 24 | 3u << 30)); /* no such interval */
+    assert_true(nook_surfel_is_sound(good, 0x00fff0u));             /* a box that leaves a sixteenth of each axis */
+    assert_false(nook_surfel_is_sound(good, 0x00f001u));            /* ... nothing of one */
+    assert_false(nook_surfel_is_sound(good, 0x8f0800u));
+}
+
+static void assert_holds(const nook_surfel_extent *outer, const nook_surfel_extent *inner, int axis, double most)
+{
+    assert_true(outer->low[axis] <= inner->low[axis] + most && outer->high[axis] >= inner->high[axis] - most);
+}
+
+static void test_a_box_comes_back_from_its_word_and_holds_what_was_wanted(void **state)
+{
+    (void)state;
+    srand(11);
+    for (int i = 0; i < 20000; i++) {
+        nook_surfel_extent wanted, box;
+        for (int k = 0; k < 3; k++) {
+            double a = rand() / (double)RAND_MAX - 0.5, b = i % 5 ? rand() / (double)RAND_MAX - 0.5 : a;
+            wanted.low[k] = fmin(a, b);
+            wanted.high[k] = fmax(a, b);
+        }
+        uint32_t word = nook_surfel_box_pack(&wanted, &box);
+        assert_true(nook_surfel_is_box(word) && !nook_surfel_word_is_plane(word));
+        for (int k = 0; k < 3; k++) {
+            assert_holds(&box, &wanted, k, 0.0);
+            assert_true(box.high[k] - box.low[k] < wanted.high[k] - wanted.low[k] + 2.0 / NOOK_EXTENT_BOX_STEPS + 1e-9);
+        }
+    }
+    nook_surfel_extent all = { { -0.5, -0.5, -0.5 }, { 0.5, 0.5, 0.5 } }, box;
+    assert_int_equal(nook_surfel_box_pack(&all, &box), 0);
+}
+
+static void test_every_interval_has_a_code_of_its_own(void **state)
+{
+    (void)state;
+    uint64_t met = 0;
+    for (int axis = 0; axis < 3; axis++)
+        for (int low = 0; low < NOOK_EXTENT_STEPS; low++)
+            for (int high = low + 1; high <= NOOK_EXTENT_STEPS; high++) {
+                nook_surfel_extent wanted = { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 } }, got;
+                wanted.low[axis] = (low + 0.01) / NOOK_EXTENT_STEPS - 0.5;
+                wanted.high[axis] = (high - 0.01) / NOOK_EXTENT_STEPS - 0.5;
+                uint32_t code = nook_surfel_interval_pack(&wanted, axis, &got);
+                assert_true(code < NOOK_EXTENT_CODES && !(met >> code & 1));
+                met |= 1ull << code;
+                for (int k = 0; k < 3; k++) {
+                    assert_true(fabs(got.low[k] - (k == axis ? (double)low / NOOK_EXTENT_STEPS - 0.5 : -0.5)) < 1e-12);
+                    assert_true(fabs(got.high[k] - (k == axis ? (double)high / NOOK_EXTENT_STEPS - 0.5 : 0.5)) < 1e-12);
+                }
+                nook_surfel_plane plane = { .normal = { 0, 0, 1 }, .side = NOOK_SIDE_WITHIN, .interval = code };
+                const double through[3] = { 0.0, 0.0, 0.1 };
+                nook_surfel_plane back = nook_surfel_unpack(nook_surfel_pack(&plane, through));
+                assert_true(back.side == NOOK_SIDE_WITHIN && back.interval == code && back.alpha == FULL);
+            }
+    assert_true(met == (1ull << NOOK_EXTENT_CODES) - 1);
 }
 
 /* ---- Closed forms ----------------------------------------------------------------------------------------------- */
@@ -133,7 +190,7 @@ static void test_a_tilted_plane_comes_back_from_its_surfels(void **state)
                 continue;
             }
             nook_surfel_plane plane = nook_surfel_unpack(surfel->plane[0]);
-            assert_int_equal(surfel->plane[1], 0);
+            assert_false(nook_surfel_word_is_plane(surfel->plane[1]));
             assert_true(fabs(nook_vector_dot(plane.normal, normal)) > cos(normal_error));
             assert_true(fabs(height) < reach + 1e-3);
             double foot[3]; /* of the voxel's middle on the true plane */
@@ -142,6 +199,7 @@ static void test_a_tilted_plane_comes_back_from_its_surfels(void **state)
             assert_true(fabs(test_height_over(&plane, at, foot)) < word_error);
             if (inside) {
                 assert_int_equal(plane.alpha, FULL);
+                assert_int_equal(surfel->plane[1], 0); /* all of it: no box */
                 full++;
             }
         }
@@ -150,27 +208,31 @@ static void test_a_tilted_plane_comes_back_from_its_surfels(void **state)
     }
 }
 
-/* Alpha of the only plane in a voxel, which is there. */
-static uint32_t alpha_at(const nook_volume *v, uint32_t x, uint32_t y, uint32_t z)
+/* What the only plane of a voxel, which lies across z, covers of it: the part of its box. */
+static double covered_at(const nook_volume *v, uint32_t x, uint32_t y, uint32_t z)
 {
     const nook_surfel *surfel = test_surfel_at(v, x, y, z);
     assert_non_null(surfel);
-    assert_int_equal(surfel->plane[1], 0);
-    return nook_surfel_unpack(surfel->plane[0]).alpha;
+    assert_false(nook_surfel_word_is_plane(surfel->plane[1]));
+    nook_surfel_extent box = nook_surfel_box_unpack(surfel->plane[1]);
+    return nook_surfel_unpack(surfel->plane[0]).alpha / (double)FULL * (box.high[0] - box.low[0]) * (box.high[1] - box.low[1]);
 }
 
-static void test_alpha_is_the_part_of_the_voxel_that_is_covered(void **state)
+static void test_alpha_and_box_say_what_is_covered_and_where(void **state)
 {
     (void)state;
-    for (int eighths = 1; eighths <= 8; eighths++) { /* a strip along x that covers so much of row 3 */
-        const float corner[3] = { 2, 3, 4.5f }, u[3] = { 9, 0, 0 }, v[3] = { 0, (float)eighths / 8.0f, 0 };
+    for (int tenths = 1; tenths <= 10; tenths++) { /* a strip along x that covers so much of row 3, from its lower side */
+        const float corner[3] = { 2, 3, 4.5f }, u[3] = { 9, 0, 0 }, v[3] = { 0, (float)tenths / 10.0f, 0 };
         test_sheet sheet = test_make_sheet(SIDE, corner, u, v);
         nook_triangles triangles = test_sheet_triangles(&sheet);
         nook_volume volume = test_make_surfels(&triangles, SIDE, 1);
         assert_int_equal(volume.info.occupied, 9);
-        for (uint32_t x = 3; x < 12; x++)
-            assert_in_range(alpha_at(&volume, x, 4, 5), (uint32_t)(eighths * 63 / 8),
-                            (uint32_t)((eighths * 63 + 7) / 8));
+        for (uint32_t x = 3; x < 12; x++) {
+            assert_true(fabs(covered_at(&volume, x, 4, 5) - tenths / 10.0) < 1.0 / FULL);
+            nook_surfel_extent box = nook_surfel_box_unpack(test_surfel_at(&volume, x, 4, 5)->plane[1]);
+            assert_true(box.low[1] == -0.5 && box.low[0] == -0.5 && box.high[0] == 0.5);
+            assert_true(box.high[1] > tenths / 10.0 - 0.5 - 1e-3 && box.high[1] < tenths / 10.0 - 0.5 + 0.07);
+        }
         nook_volume_free(&volume);
     }
 }
@@ -183,7 +245,7 @@ static void test_a_thin_wire_covers_little_and_does_not_vanish(void **state)
     nook_triangles triangles = test_sheet_triangles(&sheet);
     nook_volume volume = test_make_surfels(&triangles, SIDE, 1);
     assert_int_equal(volume.info.occupied, 9);
-    assert_int_equal(alpha_at(&volume, 5, 4, 5), 3); /* of 63: a twentieth */
+    assert_true(fabs(covered_at(&volume, 5, 4, 5) - 0.05) < 0.25 / FULL);
     nook_volume_free(&volume);
 }
 
@@ -315,7 +377,7 @@ static void test_the_corner_of_a_box_is_within_a_third_of_a_voxel(void **state)
             continue;
         looked++;
         double nearest = INFINITY;
-        for (int k = 0; k < 2 && surfel->plane[k]; k++) {
+        for (int k = 0; k < 2 && nook_surfel_word_is_plane(surfel->plane[k]); k++) {
             nook_surfel_plane plane = nook_surfel_unpack(surfel->plane[k]);
             nearest = fmin(nearest, fabs(test_height_over(&plane, at, place)));
         }
@@ -517,7 +579,9 @@ int main(void)
         cmocka_unit_test(test_axes_come_back_exactly),
         cmocka_unit_test(test_words_that_no_plane_has_are_refused),
         cmocka_unit_test(test_a_tilted_plane_comes_back_from_its_surfels),
-        cmocka_unit_test(test_alpha_is_the_part_of_the_voxel_that_is_covered),
+        cmocka_unit_test(test_a_box_comes_back_from_its_word_and_holds_what_was_wanted),
+        cmocka_unit_test(test_every_interval_has_a_code_of_its_own),
+        cmocka_unit_test(test_alpha_and_box_say_what_is_covered_and_where),
         cmocka_unit_test(test_a_thin_wire_covers_little_and_does_not_vanish),
         cmocka_unit_test(test_sheets_over_a_quarter_voxel_apart_are_two_planes),
         cmocka_unit_test(test_planes_of_an_edge_end_at_each_other),
