@@ -68,8 +68,8 @@ uint32_t nook_surfel_pack(const nook_surfel_plane *plane, const double through[3
     double normal[3] = { 0.0, 0.0, 1.0 };
     uint32_t word = encode(plane->normal, normal);
     double offset = nook_vector_dot(normal, through);
-    return word | byte_of(within(round(offset * (STEPS / NOOK_SURFEL_OFFSET_MAX))), AT_OFFSET) |
-           six << AT_ALPHA | (uint32_t)plane->side << AT_SIDE;
+    return word | byte_of(within(round(offset * (STEPS / NOOK_SURFEL_OFFSET_MAX))), AT_OFFSET) | six << AT_ALPHA |
+           (uint32_t)plane->side << AT_SIDE;
 }
 
 nook_surfel_plane nook_surfel_unpack(uint32_t word)

@@ -11,9 +11,10 @@ const float OFFSET_STEP = 0.87 / 127.0; // modules/bake/surfel_word.h
 const float ALPHA_STEP = 1.0 / 63.0;
 const uint SIDE_ABOVE = 1u, SIDE_WITHIN = 3u;
 const float BOX_STEPS = 16.0, INTERVAL_STEPS = 6.0; // modules/bake/surfel_extent.h
-const uint POINTS = 7u, PAIRS = 21u;
-const float UNCUT = 8.0; // voxels: an extent that ends at a face of the voxel reaches on, as far as the ray's way through it says
-// Voxels by which a plane reaches past where it ends inside of its voxel: what rounding may leave open there.
+const uint POINTS = 7u;
+const float UNCUT = 8.0; // voxels, farther than any place that is asked about
+// Voxels by which a plane reaches past where it ends inside of its voxel: what rounding may leave open there, and what an extent that is
+// made of moments may cut off.
 const float SIDE_SLACK = 0.04;
 // A plane that stands for two sheets a quarter voxel apart lies half of that from either: what faces exactly like the receiver and is
 // farther away is another sheet. A curved surface turns by an angle within a voxel and leaves its tangent plane by half of that.
@@ -45,31 +46,28 @@ float alpha_of(uint word)
     return word >> 30 == SIDE_WITHIN ? 1.0 : float((word >> 24) & 63u) * ALPHA_STEP;
 }
 
-// What of a voxel a plane may be in, from the voxel's middle.
-struct Extent {
-    vec3 low, high;
-};
-
-// Of a surfel's only plane, by its second word; 0 is all of the voxel.
-Extent box_of(uint word)
+// Whether a place, from the voxel's middle, is in the box that a surfel's second word says its only plane lies in.
+bool is_in_box(uint word, vec3 at)
 {
     vec3 low = vec3(word & 15u, word >> 4 & 15u, word >> 8 & 15u);
     vec3 high = vec3(word >> 12 & 15u, word >> 16 & 15u, word >> 20 & 15u);
-    return Extent(mix(low / BOX_STEPS - 0.5, vec3(-UNCUT), equal(low, vec3(0.0))),
-                  mix(0.5 - high / BOX_STEPS, vec3(UNCUT), equal(high, vec3(0.0))));
+    // A side at a face of the voxel cuts nothing: the plane reaches on, as far as the ray's way through the voxel says.
+    vec3 below = low / BOX_STEPS - (0.5 + SIDE_SLACK) - at - UNCUT * (1.0 - min(low, 1.0));
+    vec3 above = at - (0.5 + SIDE_SLACK) + high / BOX_STEPS - UNCUT * (1.0 - min(high, 1.0));
+    return max(max(max(below.x, below.y), below.z), max(max(above.x, above.y), above.z)) <= 0.0;
 }
 
-// Of one of two planes: an interval of one axis, or all.
-Extent interval_of(uint word)
+// The same for the interval of one of two planes.
+bool is_in_interval(uint word, vec3 at)
 {
-    uint code = (word >> 24) & 63u, place = code % POINTS, other = (place + code / POINTS % 3u + 1u) % POINTS;
+    uint code = (word >> 24) & 63u;
+    uint axis = (code * 49u) >> 10, row = (code * 37u) >> 8; // code / 21, code / 7: software GL divides slowly
+    uint place = code - row * POINTS, other = place + row - axis * 3u + 1u;
+    other -= other < POINTS ? 0u : POINTS;
     uint low = min(place, other), high = max(place, other);
-    bvec3 cut = bvec3(word >> 30 == SIDE_WITHIN);
-    bvec3 along = equal(uvec3(code / PAIRS), uvec3(0u, 1u, 2u));
-    cut = bvec3(cut.x && along.x, cut.y && along.y, cut.z && along.z);
-    float from = low == 0u ? -UNCUT : float(low) / INTERVAL_STEPS - 0.5;
-    float to = high == POINTS - 1u ? UNCUT : float(high) / INTERVAL_STEPS - 0.5;
-    return Extent(mix(vec3(-UNCUT), vec3(from), cut), mix(vec3(UNCUT), vec3(to), cut));
+    float along = (axis == 0u ? at.x : axis == 1u ? at.y : at.z) + 0.5;
+    return (low == 0u || along >= float(low) / INTERVAL_STEPS - SIDE_SLACK) &&
+           (high == POINTS - 1u || along <= float(high) / INTERVAL_STEPS + SIDE_SLACK);
 }
 
 // The surface that the fragment itself lies on never occludes it: a plane that faces like it, of which it is not far, and which the
@@ -81,18 +79,24 @@ bool is_own(vec4 plane, vec3 point, vec3 normal, float slope)
     return abs(facing) > FACES_ALIKE && abs(height) < most && (facing < 0.0 ? -slope : slope) > 0.0;
 }
 
-// Where the ray meets a plane of a voxel that it crosses from `enter` to `leave`, or -1. origin, point: from the voxel's middle.
-float hit_plane(uint word, vec4 plane, vec4 other, Extent extent, Ray ray, vec3 origin, vec3 point, float enter, float leave)
+// Where the ray meets a plane of a voxel that it crosses from `enter` to `leave`, or -1. origin, point: from the voxel's middle. box: 0 for
+// one of two planes.
+float hit_plane(uint word, vec4 plane, vec4 other, uint box, Ray ray, vec3 origin, vec3 point, float enter, float leave)
 {
     float slope = dot(plane.xyz, ray.along), h = (plane.w - dot(plane.xyz, origin)) / slope;
     bool hit = abs(slope) > PARALLEL && h > 0.0 && h < ray.reach && h >= enter - params.tolerance &&
                h <= leave + params.tolerance;
+    if (!hit)
+        return -1.0;
     uint side = word >> 30;
     vec3 at = origin + ray.along * h;
-    hit = hit && all(greaterThanEqual(at, extent.low - SIDE_SLACK)) && all(lessThanEqual(at, extent.high + SIDE_SLACK));
-    if (side != 0u && side != SIDE_WITHIN) {
+    if (side == SIDE_WITHIN) {
+        hit = is_in_interval(word, at);
+    } else if (side != 0u) {
         float beyond = dot(other.xyz, at) - other.w;
-        hit = hit && (side == SIDE_ABOVE ? beyond : -beyond) >= -SIDE_SLACK;
+        hit = (side == SIDE_ABOVE ? beyond : -beyond) >= -SIDE_SLACK;
+    } else if (box != 0u) {
+        hit = is_in_box(box, at);
     }
     return hit && !is_own(plane, point, ray.normal, slope) ? h : -1.0;
 }
@@ -113,10 +117,9 @@ void meet_surfel(uint index, vec3 middle, Ray ray, float enter, float leave, ino
     vec3 origin = ray.origin - middle, point = ray.point - middle;
     bool two = words.y >> 24 != 0u;
     vec4 first = plane_of(words.x), second = two ? plane_of(words.y) : first;
-    Extent extent = two ? interval_of(words.x) : box_of(words.y);
-    float a = hit_plane(words.x, first, second, extent, ray, origin, point, enter, leave), b = -1.0;
+    float a = hit_plane(words.x, first, second, two ? 0u : words.y, ray, origin, point, enter, leave), b = -1.0;
     if (two)
-        b = hit_plane(words.y, second, first, interval_of(words.y), ray, origin, point, enter, leave);
+        b = hit_plane(words.y, second, first, 0u, ray, origin, point, enter, leave);
     float alpha_a = alpha_of(words.x), alpha_b = alpha_of(words.y);
     bool swapped = b >= 0.0 && b < a;
     pass_plane(swapped ? b : a, swapped ? alpha_b : alpha_a, ray, passage);

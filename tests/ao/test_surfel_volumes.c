@@ -120,6 +120,15 @@ static void test_a_shallow_valley_is_no_part_of_the_own_surface(void **state)
 
 /* ---- What the constants are for --------------------------------------------------------------------------------- */
 
+/** Four metres wide, over 64 voxels. */
+static void add_ceiling(ao_fixture *fixture, double height)
+{
+    nook_fixture_mesh mesh = { 0 };
+    nook_fixture_add_quad(&mesh, (double[]){ -2, -2, height }, (double[]){ 4, 0, 0 }, (double[]){ 0, 4, 0 });
+    ao_fixture_add(fixture, &mesh, 64);
+    nook_fixture_mesh_free(&mesh);
+}
+
 static void test_without_lift_floors_darken_themselves(void **state)
 {
     ao_fixture *fixture = prepare(state, "0.6");
@@ -138,6 +147,17 @@ static void test_without_tolerance_rays_slip_through_between_planes(void **state
     assert_true(ao_fixture_measure(fixture, "volume", origin, up, 0.3).lowest < 0.985);
 }
 
+static void test_a_sheet_that_faces_exactly_alike_is_the_own_one_only_very_near(void **state)
+{
+    static const double voxels[] = { 0.1, 0.2, 0.3 };
+    for (int i = 0; i < 3; i++) {
+        ao_fixture *fixture = prepare(state, "1");
+        add_ceiling(fixture, voxels[i] * 4.0 / 64);
+        double occlusion = ao_fixture_measure(fixture, "volume", origin, up, 0.3).mean;
+        assert_true(i == 0 ? occlusion == 0.0 : occlusion > 0.98);
+    }
+}
+
 static void test_without_own_distance_rough_floors_darken_themselves(void **state)
 {
     ao_rough_floor got = ao_fixture_measure_rough_floor(prepare(state, "0.6"), "volume.own_distance", "0");
@@ -153,14 +173,6 @@ static void set_matrix(ao_fixture *fixture, uint32_t occluder, const nook_matrix
 }
 
 /** A square of 4 m overhead, across z. */
-static void add_ceiling(ao_fixture *fixture, double height)
-{
-    nook_fixture_mesh mesh = { 0 };
-    nook_fixture_add_quad(&mesh, (double[]){ -2, -2, height }, (double[]){ 4, 0, 0 }, (double[]){ 0, 4, 0 });
-    ao_fixture_add(fixture, &mesh, 64);
-    nook_fixture_mesh_free(&mesh);
-}
-
 static void test_distances_are_metres_whatever_the_matrix_does(void **state)
 {
     ao_fixture *fixture = prepare(state, "1");
@@ -199,14 +211,14 @@ static void test_a_sheared_box_occludes_as_its_triangles_do(void **state)
 
 /* ---- Coverage, and several volumes ------------------------------------------------------------------------------ */
 
-/** A ceiling of strips, each half a voxel wide: alpha is a half. */
-static void add_half_ceiling(ao_fixture *fixture, double height)
+/** A ceiling of strips, half of it open: so many of them in a voxel. Of four alpha is a half, of one it is known where it lies. */
+static void add_half_ceiling(ao_fixture *fixture, double height, int strips)
 {
-    const double voxel = 40.0 / 64;
+    const double strip = 40.0 / (64 * strips);
     nook_fixture_mesh mesh = { 0 };
-    for (int i = 0; i < 64; i++)
-        nook_fixture_add_quad(&mesh, (double[]){ -20 + (i + 0.25) * voxel, -20, height },
-                              (double[]){ 0.5 * voxel, 0, 0 }, (double[]){ 0, 40, 0 });
+    for (int i = 0; i < 64 * strips; i++)
+        nook_fixture_add_quad(&mesh, (double[]){ -20 + (i + 0.25) * strip, -20, height },
+                              (double[]){ 0.5 * strip, 0, 0 }, (double[]){ 0, 40, 0 });
     for (int side = -1; side <= 1; side += 2) { /* specks that hold the box */
         const double p[3] = { side * 20.0, side * 20.0, height };
         nook_fixture_add_triangle(&mesh, p, p, p);
@@ -219,12 +231,27 @@ static void test_half_covered_voxels_stop_half_of_the_light(void **state)
 {
     ao_fixture *fixture = prepare(state, "1");
     const double half = 32.0 / 63.0; /* of 6 bits */
-    add_half_ceiling(fixture, 0.5);
+    add_half_ceiling(fixture, 0.5, 4);
     double one = ao_fixture_measure(fixture, "volume", origin, up, 0.3).mean;
     assert_true(fabs(one - half * ceiling(0.5, 1.0, 40.0 / 64)) < 0.001);
-    add_half_ceiling(fixture, 0.5);
+    add_half_ceiling(fixture, 0.5, 4);
     double two = ao_fixture_measure(fixture, "volume", origin, up, 0.3).mean;
     assert_true(fabs(two - (2.0 - half) * half * ceiling(0.5, 1.0, 40.0 / 64)) < 0.001);
+}
+
+static void test_strips_within_voxels_darken_what_lies_under_them(void **state)
+{
+    ao_fixture *fixture = prepare(state, "1");
+    ao_fixture_param(fixture, "reference.rays", "1024");
+    ao_fixture_param(fixture, "volume.lift", "0.02"); /* else what is near is nearer by half */
+    add_half_ceiling(fixture, 0.2, 1);
+    const double voxel = 40.0 / 64, under[3] = { 0.5 * voxel, 0.1, 0.0 }, between[3] = { voxel, 0.1, 0.0 };
+    double dark = ao_fixture_measure(fixture, "reference", under, up, 0.3).mean;
+    double light = ao_fixture_measure(fixture, "reference", between, up, 0.3).mean;
+    assert_true(dark > light + 0.2);
+    assert_true(fabs(ao_fixture_measure(fixture, "volume", under, up, 0.3).mean - dark) <
+                0.1); /* half a strip's light would be off by 0.15; planes reach on by the slack */
+    assert_true(fabs(ao_fixture_measure(fixture, "volume", between, up, 0.3).mean - light) < 0.1);
 }
 
 static void test_the_nearer_of_two_volumes_counts_in_any_order(void **state)
@@ -343,11 +370,15 @@ int main(void)
                                         ao_fixture_teardown),
         cmocka_unit_test_setup_teardown(test_without_tolerance_rays_slip_through_between_planes, ao_fixture_setup,
                                         ao_fixture_teardown),
+        cmocka_unit_test_setup_teardown(test_a_sheet_that_faces_exactly_alike_is_the_own_one_only_very_near,
+                                        ao_fixture_setup, ao_fixture_teardown),
         cmocka_unit_test_setup_teardown(test_without_own_distance_rough_floors_darken_themselves, ao_fixture_setup,
                                         ao_fixture_teardown),
         cmocka_unit_test_setup_teardown(test_distances_are_metres_whatever_the_matrix_does, ao_fixture_setup,
                                         ao_fixture_teardown),
         cmocka_unit_test_setup_teardown(test_a_sheared_box_occludes_as_its_triangles_do, ao_fixture_setup,
+                                        ao_fixture_teardown),
+        cmocka_unit_test_setup_teardown(test_strips_within_voxels_darken_what_lies_under_them, ao_fixture_setup,
                                         ao_fixture_teardown),
         cmocka_unit_test_setup_teardown(test_half_covered_voxels_stop_half_of_the_light, ao_fixture_setup,
                                         ao_fixture_teardown),

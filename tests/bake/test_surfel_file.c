@@ -131,8 +131,8 @@ static void test_surfels_that_are_no_planes_are_refused(void **state)
     uint8_t *raw = payload_of(&volume);
     size_t first = nook_brick_total(&volume.info) * 8;
     static const uint32_t wrong[][2] = {
-        { 0, 0 },     { 1u << 24 | 0x80u, 0 }, { 1u << 24 | 3u << 30, 1u << 24 }, { 1u << 24 | 1u << 30, 0 },
-        { 0x7fu, 0 }, { 1u << 24, 0x7fu }
+        { 0, 0 },     { 1u << 24 | 0x80u, 0 }, { 63u << 24 | 3u << 30, 1u << 24 }, { 1u << 24 | 1u << 30, 0 },
+        { 0x7fu, 0 }, { 1u << 24, 0x1f00fu }
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         uint8_t before[8];

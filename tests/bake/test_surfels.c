@@ -208,27 +208,18 @@ static void test_a_tilted_plane_comes_back_from_its_surfels(void **state)
     }
 }
 
-/* What the only plane of a voxel, which lies across z, covers of it: the part of its box. */
-static double covered_at(const nook_volume *v, uint32_t x, uint32_t y, uint32_t z)
-{
-    const nook_surfel *surfel = test_surfel_at(v, x, y, z);
-    assert_non_null(surfel);
-    assert_false(nook_surfel_word_is_plane(surfel->plane[1]));
-    nook_surfel_extent box = nook_surfel_box_unpack(surfel->plane[1]);
-    return nook_surfel_unpack(surfel->plane[0]).alpha / (double)FULL * (box.high[0] - box.low[0]) * (box.high[1] - box.low[1]);
-}
-
 static void test_alpha_and_box_say_what_is_covered_and_where(void **state)
 {
     (void)state;
-    for (int tenths = 1; tenths <= 10; tenths++) { /* a strip along x that covers so much of row 3, from its lower side */
+    for (int tenths = 1; tenths <= 10;
+         tenths++) { /* a strip along x that covers so much of row 3, from its lower side */
         const float corner[3] = { 2, 3, 4.5f }, u[3] = { 9, 0, 0 }, v[3] = { 0, (float)tenths / 10.0f, 0 };
         test_sheet sheet = test_make_sheet(SIDE, corner, u, v);
         nook_triangles triangles = test_sheet_triangles(&sheet);
         nook_volume volume = test_make_surfels(&triangles, SIDE, 1);
         assert_int_equal(volume.info.occupied, 9);
         for (uint32_t x = 3; x < 12; x++) {
-            assert_true(fabs(covered_at(&volume, x, 4, 5) - tenths / 10.0) < 1.0 / FULL);
+            assert_true(fabs(test_covered_across_z(test_surfel_at(&volume, x, 4, 5)) - tenths / 10.0) < 1.0 / FULL);
             nook_surfel_extent box = nook_surfel_box_unpack(test_surfel_at(&volume, x, 4, 5)->plane[1]);
             assert_true(box.low[1] == -0.5 && box.low[0] == -0.5 && box.high[0] == 0.5);
             assert_true(box.high[1] > tenths / 10.0 - 0.5 - 1e-3 && box.high[1] < tenths / 10.0 - 0.5 + 0.07);
@@ -245,7 +236,7 @@ static void test_a_thin_wire_covers_little_and_does_not_vanish(void **state)
     nook_triangles triangles = test_sheet_triangles(&sheet);
     nook_volume volume = test_make_surfels(&triangles, SIDE, 1);
     assert_int_equal(volume.info.occupied, 9);
-    assert_true(fabs(covered_at(&volume, 5, 4, 5) - 0.05) < 0.25 / FULL);
+    assert_true(fabs(test_covered_across_z(test_surfel_at(&volume, 5, 4, 5)) - 0.05) < 0.25 / FULL);
     nook_volume_free(&volume);
 }
 

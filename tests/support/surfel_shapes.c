@@ -1,5 +1,6 @@
 #include "tests/support/surfel_shapes.h"
 #include "modules/bake/brick_grid.h"
+#include "modules/bake/surfel_extent.h"
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -34,6 +35,16 @@ void test_assert_same_surfels(const nook_volume *a, const nook_volume *b)
     assert_int_equal(nook_brick_total(&a->info), nook_brick_total(&b->info));
     assert_memory_equal(a->bricks, b->bricks, nook_brick_total(&a->info) * sizeof *a->bricks);
     assert_memory_equal(a->surfels, b->surfels, (size_t)a->info.occupied * sizeof *a->surfels);
+}
+
+double test_covered_across_z(const nook_surfel *surfel)
+{
+    if (!surfel)
+        return 0.0;
+    assert_false(nook_surfel_word_is_plane(surfel->plane[1]));
+    nook_surfel_extent box = nook_surfel_box_unpack(surfel->plane[1]);
+    double alpha = nook_surfel_unpack(surfel->plane[0]).alpha / (double)NOOK_SURFEL_ALPHA_MAX;
+    return alpha * (box.high[0] - box.low[0]) * (box.high[1] - box.low[1]);
 }
 
 void test_to_voxels(const nook_volume *v, const double metres[3], double out[3])

@@ -10,6 +10,8 @@ nook_volume test_make_surfels(const nook_triangles *triangles, uint32_t resoluti
 /** @return NULL: the voxel has none */
 const nook_surfel *test_surfel_at(const nook_volume *v, uint32_t x, uint32_t y, uint32_t z);
 void test_assert_same_surfels(const nook_volume *a, const nook_volume *b);
+/** What the only plane of a voxel, which lies across z, covers of it: alpha times its box. Fails when there are two. @param surfel  NULL: 0 */
+double test_covered_across_z(const nook_surfel *surfel);
 /** In voxels from the volume's outer corner. */
 void test_to_voxels(const nook_volume *v, const double metres[3], double out[3]);
 /** From a point, in voxels from the outer corner, to a plane of the surfel in voxel x, y, z. */
