@@ -225,7 +225,8 @@ static uint32_t choose_box(const nook_surfel_bin *sum, const plane *p, double bi
 }
 
 /* One of two planes, which has no room for both: an interval, all of which is there, or a side and coverage. */
-static void choose_end(const nook_surfel_bin *sum, const plane *p, const plane *other, double bias, nook_surfel_plane *out)
+static void choose_end(const nook_surfel_bin *sum, const plane *p, const plane *other, double bias,
+                       nook_surfel_plane *out)
 {
     nook_surfel_extent wanted = extent_of(sum), interval;
     nook_polygon section;

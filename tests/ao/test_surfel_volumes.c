@@ -120,7 +120,7 @@ static void test_a_shallow_valley_is_no_part_of_the_own_surface(void **state)
 
 /* ---- What the constants are for --------------------------------------------------------------------------------- */
 
-/** Four metres wide, over 64 voxels. */
+/** A square of 4 m overhead, across z. */
 static void add_ceiling(ao_fixture *fixture, double height)
 {
     nook_fixture_mesh mesh = { 0 };
@@ -172,7 +172,6 @@ static void set_matrix(ao_fixture *fixture, uint32_t occluder, const nook_matrix
     memcpy(fixture->view->occluders[occluder].world_from_mesh, matrix->m, sizeof matrix->m);
 }
 
-/** A square of 4 m overhead, across z. */
 static void test_distances_are_metres_whatever_the_matrix_does(void **state)
 {
     ao_fixture *fixture = prepare(state, "1");

@@ -1,9 +1,12 @@
 /* Surfels in .nkv files: what is accepted, shaders can trust. */
 #include "engine/core/log.h"
+#include "engine/core/vector.h"
 #include "modules/bake/brick_grid.h"
+#include "modules/bake/surfel_extent.h"
 #include "modules/bake/volume_payload.h"
 #include "tests/support/surfel_shapes.h"
 #include "tests/support/voxel_shapes.h"
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -161,13 +164,70 @@ static void test_a_count_that_masks_do_not_have_is_refused(void **state)
     nook_volume_free(&volume);
 }
 
+/* What shaders make of the words of an accepted surfel: planes with a normal, an offset and a part that is there, ends in order. */
+static void assert_decodes(const nook_surfel *surfel)
+{
+    bool two = nook_surfel_word_is_plane(surfel->plane[1]);
+    for (int k = 0; k < (two ? 2 : 1); k++) {
+        const nook_surfel_plane plane = nook_surfel_unpack(surfel->plane[k]);
+        assert_true(fabs(nook_vector_dot(plane.normal, plane.normal) - 1.0) < 1e-9);
+        assert_true(fabs(plane.offset) <= NOOK_SURFEL_OFFSET_MAX);
+        assert_in_range(plane.alpha, 1, NOOK_SURFEL_ALPHA_MAX);
+        assert_true(two || plane.side == NOOK_SIDE_BOTH);
+        if (plane.side == NOOK_SIDE_WITHIN) {
+            assert_true(plane.interval < NOOK_EXTENT_CODES);
+            const nook_surfel_extent extent = nook_surfel_interval_unpack(plane.interval);
+            for (int axis = 0; axis < 3; axis++)
+                assert_true(extent.low[axis] >= -0.5 && extent.low[axis] < extent.high[axis] &&
+                            extent.high[axis] <= 0.5);
+        }
+    }
+    const nook_surfel_extent box = nook_surfel_box_unpack(two ? 0 : surfel->plane[1]);
+    for (int axis = 0; axis < 3; axis++)
+        assert_true(box.low[axis] >= -0.5 && box.low[axis] < box.high[axis] && box.high[axis] <= 0.5);
+}
+
+/* Two words of any bits at all, half of them with a second one that is a box or nearly so. */
+static void test_any_two_words_are_refused_or_decode(void **state)
+{
+    (void)state;
+    uint32_t random = 5, sound[2] = { 0, 0 };
+    enum { TRIES = 400000 };
+    for (int i = 0; i < TRIES; i++) {
+        nook_surfel surfel;
+        for (int k = 0; k < 2; k++) {
+            random = random * 1664525u + 1013904223u;
+            uint32_t high = random & 0xffff0000u;
+            random = random * 1664525u + 1013904223u;
+            surfel.plane[k] = high | random >> 16;
+        }
+        if (i % 2) {
+            surfel.plane[0] &= 0x3fffffffu;
+            surfel.plane[1] &= 0x1777777u;
+        }
+        if (!nook_surfel_is_sound(surfel.plane[0], surfel.plane[1]))
+            continue;
+        assert_decodes(&surfel);
+        sound[i % 2]++;
+    }
+    assert_in_range(sound[0], TRIES / 4, TRIES / 2 - 1000);
+    assert_in_range(sound[1], TRIES / 16, TRIES / 2 - 1000);
+}
+
 /* Never a crash, and what is accepted is what shaders rely on. */
 static void test_every_changed_byte_is_refused_or_sound(void **state)
 {
     (void)state;
     nook_volume volume = make_volume();
     uint8_t *raw = payload_of(&volume);
-    int lines = 0, accepted = 0;
+    int lines = 0, accepted = 0, boxes = 0, intervals = 0;
+    for (size_t i = 0; i < volume.info.occupied; i++) {
+        bool two = nook_surfel_word_is_plane(volume.surfels[i].plane[1]);
+        boxes += !two && volume.surfels[i].plane[1] != 0;
+        for (int k = 0; two && k < 2; k++)
+            intervals += nook_surfel_unpack(volume.surfels[i].plane[k]).side == NOOK_SIDE_WITHIN;
+    }
+    assert_true(boxes > 0 && intervals > 0); /* words of both sorts are among what is changed */
     nook_log_set_sink(swallow, &lines);
     for (size_t at = 0; at < nook_payload_size(&volume.info); at++) {
         for (int value = 0; value < 256; value += 17) {
@@ -184,6 +244,8 @@ static void test_every_changed_byte_is_refused_or_sound(void **state)
                         surfels += brick->mask[bit / 32] >> (bit % 32) & 1;
                 }
                 assert_int_equal(surfels, back.info.occupied);
+                for (size_t i = 0; i < back.info.occupied; i++)
+                    assert_decodes(&back.surfels[i]);
                 accepted++;
                 nook_volume_free(&back);
             }
@@ -230,6 +292,7 @@ int main(void)
         cmocka_unit_test(test_voxels_outside_of_the_volume_are_refused),
         cmocka_unit_test(test_surfels_that_are_no_planes_are_refused),
         cmocka_unit_test(test_a_count_that_masks_do_not_have_is_refused),
+        cmocka_unit_test(test_any_two_words_are_refused_or_decode),
         cmocka_unit_test(test_every_changed_byte_is_refused_or_sound),
         cmocka_unit_test(test_encoding_refuses_surfels_that_no_file_may_hold),
     };

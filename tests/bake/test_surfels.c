@@ -2,7 +2,6 @@
 #include "engine/core/log.h"
 #include "engine/core/vector.h"
 #include "modules/bake/brick_grid.h"
-#include "modules/bake/surfel_extent.h"
 #include "tests/support/surfel_shapes.h"
 #include "tests/support/voxel_shapes.h"
 #include <math.h>
@@ -87,58 +86,6 @@ static void test_words_that_no_plane_has_are_refused(void **state)
     assert_false(nook_surfel_is_sound(good, 0x8f0800u));
 }
 
-static void assert_holds(const nook_surfel_extent *outer, const nook_surfel_extent *inner, int axis, double most)
-{
-    assert_true(outer->low[axis] <= inner->low[axis] + most && outer->high[axis] >= inner->high[axis] - most);
-}
-
-static void test_a_box_comes_back_from_its_word_and_holds_what_was_wanted(void **state)
-{
-    (void)state;
-    srand(11);
-    for (int i = 0; i < 20000; i++) {
-        nook_surfel_extent wanted, box;
-        for (int k = 0; k < 3; k++) {
-            double a = rand() / (double)RAND_MAX - 0.5, b = i % 5 ? rand() / (double)RAND_MAX - 0.5 : a;
-            wanted.low[k] = fmin(a, b);
-            wanted.high[k] = fmax(a, b);
-        }
-        uint32_t word = nook_surfel_box_pack(&wanted, &box);
-        assert_true(nook_surfel_is_box(word) && !nook_surfel_word_is_plane(word));
-        for (int k = 0; k < 3; k++) {
-            assert_holds(&box, &wanted, k, 0.0);
-            assert_true(box.high[k] - box.low[k] < wanted.high[k] - wanted.low[k] + 2.0 / NOOK_EXTENT_BOX_STEPS + 1e-9);
-        }
-    }
-    nook_surfel_extent all = { { -0.5, -0.5, -0.5 }, { 0.5, 0.5, 0.5 } }, box;
-    assert_int_equal(nook_surfel_box_pack(&all, &box), 0);
-}
-
-static void test_every_interval_has_a_code_of_its_own(void **state)
-{
-    (void)state;
-    uint64_t met = 0;
-    for (int axis = 0; axis < 3; axis++)
-        for (int low = 0; low < NOOK_EXTENT_STEPS; low++)
-            for (int high = low + 1; high <= NOOK_EXTENT_STEPS; high++) {
-                nook_surfel_extent wanted = { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 } }, got;
-                wanted.low[axis] = (low + 0.01) / NOOK_EXTENT_STEPS - 0.5;
-                wanted.high[axis] = (high - 0.01) / NOOK_EXTENT_STEPS - 0.5;
-                uint32_t code = nook_surfel_interval_pack(&wanted, axis, &got);
-                assert_true(code < NOOK_EXTENT_CODES && !(met >> code & 1));
-                met |= 1ull << code;
-                for (int k = 0; k < 3; k++) {
-                    assert_true(fabs(got.low[k] - (k == axis ? (double)low / NOOK_EXTENT_STEPS - 0.5 : -0.5)) < 1e-12);
-                    assert_true(fabs(got.high[k] - (k == axis ? (double)high / NOOK_EXTENT_STEPS - 0.5 : 0.5)) < 1e-12);
-                }
-                nook_surfel_plane plane = { .normal = { 0, 0, 1 }, .side = NOOK_SIDE_WITHIN, .interval = code };
-                const double through[3] = { 0.0, 0.0, 0.1 };
-                nook_surfel_plane back = nook_surfel_unpack(nook_surfel_pack(&plane, through));
-                assert_true(back.side == NOOK_SIDE_WITHIN && back.interval == code && back.alpha == FULL);
-            }
-    assert_true(met == (1ull << NOOK_EXTENT_CODES) - 1);
-}
-
 /* ---- Closed forms ----------------------------------------------------------------------------------------------- */
 
 /* A wide sheet through the middle of the grid, as two vectors across `normal`. */
@@ -205,26 +152,6 @@ static void test_a_tilted_plane_comes_back_from_its_surfels(void **state)
         }
         assert_true(full >= 8);
         nook_volume_free(&v);
-    }
-}
-
-static void test_alpha_and_box_say_what_is_covered_and_where(void **state)
-{
-    (void)state;
-    for (int tenths = 1; tenths <= 10;
-         tenths++) { /* a strip along x that covers so much of row 3, from its lower side */
-        const float corner[3] = { 2, 3, 4.5f }, u[3] = { 9, 0, 0 }, v[3] = { 0, (float)tenths / 10.0f, 0 };
-        test_sheet sheet = test_make_sheet(SIDE, corner, u, v);
-        nook_triangles triangles = test_sheet_triangles(&sheet);
-        nook_volume volume = test_make_surfels(&triangles, SIDE, 1);
-        assert_int_equal(volume.info.occupied, 9);
-        for (uint32_t x = 3; x < 12; x++) {
-            assert_true(fabs(test_covered_across_z(test_surfel_at(&volume, x, 4, 5)) - tenths / 10.0) < 1.0 / FULL);
-            nook_surfel_extent box = nook_surfel_box_unpack(test_surfel_at(&volume, x, 4, 5)->plane[1]);
-            assert_true(box.low[1] == -0.5 && box.low[0] == -0.5 && box.high[0] == 0.5);
-            assert_true(box.high[1] > tenths / 10.0 - 0.5 - 1e-3 && box.high[1] < tenths / 10.0 - 0.5 + 0.07);
-        }
-        nook_volume_free(&volume);
     }
 }
 
@@ -570,9 +497,6 @@ int main(void)
         cmocka_unit_test(test_axes_come_back_exactly),
         cmocka_unit_test(test_words_that_no_plane_has_are_refused),
         cmocka_unit_test(test_a_tilted_plane_comes_back_from_its_surfels),
-        cmocka_unit_test(test_a_box_comes_back_from_its_word_and_holds_what_was_wanted),
-        cmocka_unit_test(test_every_interval_has_a_code_of_its_own),
-        cmocka_unit_test(test_alpha_and_box_say_what_is_covered_and_where),
         cmocka_unit_test(test_a_thin_wire_covers_little_and_does_not_vanish),
         cmocka_unit_test(test_sheets_over_a_quarter_voxel_apart_are_two_planes),
         cmocka_unit_test(test_planes_of_an_edge_end_at_each_other),

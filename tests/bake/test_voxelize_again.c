@@ -148,6 +148,32 @@ static void test_triangles_that_come_and_go_change_their_bricks(void **state)
     free(after);
 }
 
+static size_t count_ended(const nook_volume *v)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < v->info.occupied; i++)
+        count += (v->surfels[i].plane[1] != 0 && !nook_surfel_word_is_plane(v->surfels[i].plane[1])) ||
+                 nook_surfel_unpack(v->surfels[i].plane[0]).side == NOOK_SIDE_WITHIN;
+    return count;
+}
+
+/* The sheet's last column, which lay on voxels' faces, moved into the voxels: they are told where it ends. */
+static void test_an_end_that_moves_within_its_voxels_is_made_anew(void **state)
+{
+    (void)state;
+    hills *before = make_hills(), *after = copy_of(before);
+    for (uint32_t row = 8; row < 24; row++)
+        after->points[row * (CELLS + 1) + CELLS][0] -= 0.4f;
+    nook_volume was = make(before), is = make(after);
+    assert_true(count_ended(&is) >= count_ended(&was) + 8); /* 15 cells of 0.6 voxels */
+    nook_volume_free(&was);
+    nook_volume_free(&is);
+    assert_in_range(rebake(before, after), 2, 24);
+    assert_true(rebake(after, before) > 0);
+    free(before);
+    free(after);
+}
+
 /* The masked half takes up half of the square. */
 static void test_another_texture_changes_what_it_lies_on(void **state)
 {
@@ -274,6 +300,7 @@ int main(void)
         cmocka_unit_test(test_nothing_changed_makes_nothing),
         cmocka_unit_test(test_a_moved_vertex_changes_the_bricks_around_it),
         cmocka_unit_test(test_triangles_that_come_and_go_change_their_bricks),
+        cmocka_unit_test(test_an_end_that_moves_within_its_voxels_is_made_anew),
         cmocka_unit_test(test_another_texture_changes_what_it_lies_on),
         cmocka_unit_test(test_another_box_makes_all),
         cmocka_unit_test(test_a_volume_of_something_else_is_refused),
