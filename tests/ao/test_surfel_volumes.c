@@ -238,19 +238,41 @@ static void test_half_covered_voxels_stop_half_of_the_light(void **state)
     assert_true(fabs(two - (2.0 - half) * half * ceiling(0.5, 1.0, 40.0 / 64)) < 0.001);
 }
 
+/**
+ * What a ceiling of even strips takes, hard, by the cosine over the hemisphere.
+ * @param x      of the receiver; voxels, as all lengths; strips lie about x = 0.5, 1.5, ...
+ * @param width  of a strip
+ */
+static double ceiling_of_strips(double x, double width, double height, double r_max)
+{
+    enum { STEPS = 500 };
+    uint32_t hits = 0;
+    for (int i = 0; i < STEPS * STEPS; i++) {
+        double squared = (i / STEPS + 0.5) / STEPS, angle = 2.0 * NOOK_PI * (i % STEPS + 0.5) / STEPS;
+        double up_part = sqrt(1.0 - squared), along = height / up_part;
+        double place = x + sqrt(squared) * cos(angle) * along;
+        hits += along < r_max && fabs(place - floor(place) - 0.5) < 0.5 * width;
+    }
+    return hits / (double)(STEPS * STEPS);
+}
+
 static void test_strips_within_voxels_darken_what_lies_under_them(void **state)
 {
     ao_fixture *fixture = prepare(state, "1");
+    const double voxel = 40.0 / 64, slack = 0.04; /* voxels by which planes reach past their ends: SIDE_SLACK */
     ao_fixture_param(fixture, "reference.rays", "1024");
     ao_fixture_param(fixture, "volume.lift", "0.02"); /* else what is near is nearer by half */
     add_half_ceiling(fixture, 0.2, 1);
-    const double voxel = 40.0 / 64, under[3] = { 0.5 * voxel, 0.1, 0.0 }, between[3] = { voxel, 0.1, 0.0 };
-    double dark = ao_fixture_measure(fixture, "reference", under, up, 0.3).mean;
-    double light = ao_fixture_measure(fixture, "reference", between, up, 0.3).mean;
-    assert_true(dark > light + 0.2);
-    assert_true(fabs(ao_fixture_measure(fixture, "volume", under, up, 0.3).mean - dark) <
-                0.1); /* half a strip's light would be off by 0.15; planes reach on by the slack */
-    assert_true(fabs(ao_fixture_measure(fixture, "volume", between, up, 0.3).mean - light) < 0.1);
+    for (int half = 0; half < 2; half++) { /* under a strip, and between two */
+        const double x = half ? 1.0 : 0.5, receiver[3] = { x * voxel, 0.1, 0.0 };
+        double truth = ao_fixture_measure(fixture, "reference", receiver, up, 0.3).mean;
+        assert_true(fabs(truth - ceiling_of_strips(x, 0.5, 0.2 / voxel, 1.0 / voxel)) < 0.01);
+        assert_true(half ? truth < 0.35 : truth > 0.6); /* coverage alone would take 0.49 of both */
+        double expected = ceiling_of_strips(x, 0.5 + 2.0 * slack, 0.2 / voxel - 0.02, 1.0 / voxel);
+        double got = ao_fixture_measure(fixture, "volume", receiver, up, 0.3).mean;
+        if (fabs(got - expected) >= 0.02)
+            fail_msg("x = %.1f: %.4f, expected %.4f, truth %.4f", x, got, expected, truth);
+    }
 }
 
 static void test_the_nearer_of_two_volumes_counts_in_any_order(void **state)
