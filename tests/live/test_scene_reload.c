@@ -218,6 +218,44 @@ static void test_changed_model_is_shown_and_darkens_with_a_new_volume(void **sta
                     .cached); /* what is as it was is not baked again */
 }
 
+/* The scene that is shown is the file's, but for one corner of the crate. */
+static void test_surfels_are_made_anew_where_a_model_differs_from_the_shown_one(void **state)
+{
+    fixture *self = *state;
+    nook_scene *shown;
+    nook_scene_volumes volumes;
+    nook_scene_loading *load;
+    nook_loaded_scene loaded;
+    char why[256];
+    assert_int_equal(nook_scene_load(self->path, NULL, &shown), NOOK_OK);
+    uint32_t crate = shown->primitives[shown->meshes[1].first_primitive].first_vertex;
+    for (int i = 0; i < 3; i++)
+        shown->vertices[crate].position[i] *= 0.9f;
+    const nook_volumes_desc desc = {
+        .resolution = 128, .r_max = 0.5, .cache_dir = self->cache, .kinds = NOOK_VOLUME_BIT(NOOK_VOLUME_SURFEL)
+    };
+    assert_int_equal(nook_volumes_bake(shown, &desc, &volumes), NOOK_OK);
+    const nook_scene_loading_desc again = { .path = self->path,
+                                            .resolution = desc.resolution,
+                                            .r_max = desc.r_max,
+                                            .kinds = desc.kinds,
+                                            .cache = self->cache,
+                                            .shown = shown };
+    assert_int_equal(nook_scene_loading_start(&again, &load), NOOK_OK);
+    assert_int_equal(nook_scene_loading_finish(load, &loaded, why, sizeof why), NOOK_OK);
+    assert_int_equal(loaded.volumes.volume_count, 2);
+    int made_in_part = 0;
+    for (uint32_t i = 0; i < 2; i++) {
+        const nook_bake *bake = &loaded.volumes.volumes[i].bakes[NOOK_VOLUME_SURFEL];
+        made_in_part += bake->bricks > 0;
+        assert_true(bake->bricks > 0 || bake->cache_hit); /* the floor is as it was */
+    }
+    assert_int_equal(made_in_part, 1);
+    nook_loaded_scene_free(&loaded);
+    nook_volumes_free(&volumes);
+    nook_scene_destroy(shown);
+}
+
 static void test_broken_model_keeps_the_picture_and_says_why(void **state)
 {
     fixture *self = *state;
@@ -537,6 +575,7 @@ int main(void)
         TEST(test_changed_texture_is_shown),
         TEST(test_broken_texture_keeps_the_picture_until_it_is_mended),
         TEST(test_changed_model_is_shown_and_darkens_with_a_new_volume),
+        TEST(test_surfels_are_made_anew_where_a_model_differs_from_the_shown_one),
         TEST(test_broken_model_keeps_the_picture_and_says_why),
         TEST(test_deleted_model_keeps_the_picture_until_it_is_back),
         TEST(test_other_files_beside_it_are_nothing),
