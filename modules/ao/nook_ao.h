@@ -245,8 +245,8 @@ typedef struct nook_ao_statistics {
     uint32_t occluders;    /**< Marched this frame. */
     uint64_t volume_bytes; /**< On the GPU, of the kind that was marched. */
     uint64_t
-        texture_bytes; /**< Of the last record's textures: depth, normals and visibility at the host's size and the trace's. Those of
-                            other scales are kept besides, once used. */
+        texture_bytes; /**< Of the last record's textures: depth, normals and visibility at the host's size and the trace's, with
+                            ao.reuse what it keeps of them. Those of other scales are kept besides, once used. */
     uint32_t
         traced; /**< Pixels that the last record traced, when ao.reuse let it take over the others; UINT32_MAX: all of them. */
 } nook_ao_statistics;

@@ -364,8 +364,8 @@ void nook_ao_get_statistics(nook_ao *ao, nook_ao_statistics *out_statistics)
     out_statistics->volume_bytes = ao->kinds & NOOK_VOLUME_BIT(NOOK_VOLUME_SURFEL)
                                        ? brick_pool_bytes(&ao->pool)
                                        : volume_atlas_bytes(marched_atlas(ao));
-    out_statistics->texture_bytes =
-        ao_targets_bytes(&ao->targets, ao->scale) + (ao->refining ? ao_refine_bytes(&ao->refine) : 0);
+    out_statistics->texture_bytes = ao_targets_bytes(&ao->targets, ao->scale) +
+                                    (ao->refining ? ao_refine_bytes(&ao->refine) : 0) + ao_reuse_bytes(&ao->reuse);
     out_statistics->refined = ao->refining ? ao_refine_count(ao->gpu, &ao->refine) : 0;
     out_statistics->traced = ao_reuse_count_traced(ao);
     out_statistics->fetches_per_pixel = 0.0;

@@ -289,6 +289,12 @@ void ao_reuse_keep(nook_ao *ao, const nook_ao_frame *frame, const nook_ao_pass *
     reuse->holds = true;
 }
 
+uint64_t ao_reuse_bytes(const ao_reuse *reuse)
+{
+    enum { BYTES = 4 + 4 + 4 + 2 * 1 }; /* R32F, RG16, R32F, twice R8UI */
+    return reuse->holds ? (uint64_t)reuse->depth.width * reuse->depth.height * BYTES : 0;
+}
+
 uint32_t ao_reuse_count_traced(const nook_ao *ao)
 {
     const ao_reuse *reuse = &ao->reuse;

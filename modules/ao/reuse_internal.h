@@ -70,6 +70,7 @@ nook_result ao_reuse_choose(nook_ao *ao, const nook_ao_frame *frame, const struc
 void ao_reuse_keep(nook_ao *ao, const nook_ao_frame *frame, const struct nook_ao_pass *pass);
 /** Pixels that the last record has listed; UINT32_MAX when it took no part. Waits for the GPU. */
 uint32_t ao_reuse_count_traced(const nook_ao *ao);
+uint64_t ao_reuse_bytes(const ao_reuse *reuse); /**< Of the textures that the last record took part in with; else 0. */
 void ao_reuse_release(nook_ao *ao);
 /**
  * Composes into ao->reuse.moved those of the marched occluders that are not as the last record has marched them, as they are and as

@@ -1,6 +1,7 @@
 /* How much memory each kind has, and in which shape. */
 #include "engine/core/log.h"
 #include "modules/stream/stream_internal.h"
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -182,6 +183,12 @@ bool stream_room_holds(const nook_stream *stream, const stream_item *item, int l
            (info->width <= sides[0] && info->height <= sides[1] && info->depth <= sides[2]);
 }
 
+/* At least one, as none would be no room at all. */
+static uint32_t rows_of(double rows)
+{
+    return (uint32_t)fmin(fmax(rows, 1.0), UINT32_MAX);
+}
+
 /* In the proportion that all of them have. */
 static nook_result make_pool_room(nook_stream *stream, uint64_t bytes, bool *out_made)
 {
@@ -198,10 +205,8 @@ static nook_result make_pool_room(nook_stream *stream, uint64_t bytes, bool *out
         all += (double)item->levels[0].bytes;
     }
     double share = all > 0.0 ? surfels / all : 0.5;
-    nook_ao_room room = { .surfels = (uint32_t)((double)bytes * share / sizeof(nook_surfel)),
-                          .bricks = (uint32_t)((double)bytes * (1.0 - share) / sizeof(nook_brick)) };
-    room.surfels += room.surfels == 0; /* none would be no room at all */
-    room.bricks += room.bricks == 0;
+    nook_ao_room room = { .surfels = rows_of((double)bytes * share / sizeof(nook_surfel)),
+                          .bricks = rows_of((double)bytes * (1.0 - share) / sizeof(nook_brick)) };
     nook_result result = nook_ao_set_room(stream->ao, NOOK_VOLUME_SURFEL, &room);
     if (result != NOOK_OK)
         return result;

@@ -226,6 +226,21 @@ static void test_after_a_body_has_moved_the_picture_is_that_of_a_frame_without_r
     ao_view_param(r->view, "volume.kind", "binary");
 }
 
+static void test_the_statistics_count_what_is_kept_of_each_trace_pixel(void **state)
+{
+    const room *r = *state;
+    enum { KEPT = 14 }; /* depth 4, normal 4, visibility 4, two ages */
+    nook_ao_statistics without, with;
+    set_reuse(r, 1);
+    ao_view_param(r->view, "ao.scale", "full");
+    ao_view_record(r->view, "volume");
+    nook_ao_get_statistics(r->view->ao, &without);
+    set_reuse(r, PERIOD);
+    ao_view_record(r->view, "volume");
+    nook_ao_get_statistics(r->view->ao, &with);
+    assert_int_equal(with.texture_bytes - without.texture_bytes, KEPT * PIXELS);
+}
+
 static void test_only_what_is_near_a_body_that_moves_is_traced_out_of_turn(void **state)
 {
     room *r = *state;
@@ -544,6 +559,7 @@ int main(void)
         cmocka_unit_test(test_techniques_that_see_the_screen_take_nothing_over),
         cmocka_unit_test(test_boxes_that_are_drawn_take_nothing_over),
         cmocka_unit_test(test_after_a_body_has_moved_the_picture_is_that_of_a_frame_without_reuse),
+        cmocka_unit_test(test_the_statistics_count_what_is_kept_of_each_trace_pixel),
         cmocka_unit_test(test_only_what_is_near_a_body_that_moves_is_traced_out_of_turn),
         cmocka_unit_test(test_bodies_that_come_go_or_change_places_leave_nothing_behind),
         cmocka_unit_test(test_a_volume_that_is_voxelised_anew_leaves_nothing_behind),
