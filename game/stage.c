@@ -152,6 +152,9 @@ static nook_result fill_live(nook_stage *stage)
     if (stage->stream_params.budget > 0.0f)
         nook_log_warning("%s: its volumes are live, so that volumes.budget does nothing", stage->scene->path);
     nook_result result = nook_volumes_collect(stage->scene, &desc, &collected);
+    if (result == NOOK_OK &&
+        (result = nook_volumes_add_densities(stage->scene, desc.resolution, &collected)) != NOOK_OK)
+        nook_volumes_free(&collected);
     return result == NOOK_OK ? nook_game_world_take_volumes(stage->world, stage->ao, &collected, live_resolution(stage))
                              : result;
 }

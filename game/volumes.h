@@ -8,6 +8,7 @@
  *               frame (game/live_volumes.h); one that stands still in a pose has one like any other (engine/animation/scene_stand.h).
  * Materials     Masked ones are in, with their holes (distances: whole). Blended ones are in densities and surfels with their alpha, and left
  *               out of voxels and distances, which would make glass as dark as a wall.
+ * Densities     of the scene (nook_density) come last. They are in no cache: who uploads them bakes them (modules/bake/medium_bake.h).
  * Resolution    follows from r_max: finer than r_max / NOOK_VOLUMES_VOXELS_PER_R_MAX cannot be told apart in the result. The static
  *               volume takes the `resolution` asked for on its longest side. A body takes as many voxels as make them that
  *               small in the world (at its largest instance), but at least NOOK_VOLUMES_BODY_RESOLUTION_MIN and at most
@@ -49,6 +50,7 @@ typedef struct nook_scene_volume {
     float *uvs;             /**< Two for each vertex, blended ones too. */
     nook_alpha_part *parts; /**< What of all this is not opaque; texels are the scene's. */
     uint32_t part_count;
+    const nook_medium *medium; /**< Instead of triangles: a density of the scene, which outlives it. NULL: triangles. */
     double longest;      /**< Longest side of the box of what is not blended, or else of all, metres, mesh space. */
     uint32_t instances;  /**< Occluders that it stands for. */
     uint32_t resolution; /**< What it was baked at: voxels on the longest side; 0: not at all, a plan leaves out its
@@ -120,10 +122,16 @@ double nook_volumes_default_r_max(const nook_scene *scene);
 uint32_t nook_volumes_body_resolution(double longest, double r_max, uint32_t resolution);
 
 /**
- * What would be baked: bodies with their triangles and resolutions, without volumes.
+ * What would be baked: bodies with their triangles and resolutions, without volumes and densities.
  * @return as nook_volumes_bake
  */
 nook_result nook_volumes_collect(const nook_scene *scene, const nook_volumes_desc *desc, nook_scene_volumes *out);
+
+/**
+ * Puts the scene's densities behind what is there, each a volume of its own that stands still: after a plan, which knows triangles only.
+ * @return NOOK_E_MEMORY
+ */
+nook_result nook_volumes_add_densities(const nook_scene *scene, uint32_t resolution, nook_scene_volumes *volumes);
 
 /**
  * Bakes a scene, or reads it from the cache. Nodes with corners that are not finite only, without any area, or

@@ -3,6 +3,7 @@
 #include "engine/core/log.h"
 #include "game/plan/plan_apply.h"
 #include "game/volumes.h"
+#include "modules/bake/medium_bake.h"
 #include "modules/plan/plan.h"
 #include <math.h>
 #include <stdlib.h>
@@ -152,6 +153,39 @@ static nook_result bake_all(const nook_volumes_desc *desc, nook_scene_volumes *v
     return NOOK_OK;
 }
 
+/* Room for the densities, behind the volumes and occluders that are there. */
+static nook_result grow(const nook_scene *scene, nook_scene_volumes *volumes)
+{
+    size_t more = scene->density_count;
+    nook_scene_volume *grown = realloc(volumes->volumes, (volumes->volume_count + more) * sizeof *grown);
+    if (grown)
+        volumes->volumes = grown;
+    nook_scene_occluder *occluders = realloc(volumes->occluders, (volumes->occluder_count + more) * sizeof *occluders);
+    if (occluders)
+        volumes->occluders = occluders;
+    return grown && occluders ? NOOK_OK
+                              : nook_fail(NOOK_E_MEMORY, "%s: no memory for %zu densities", scene->path, more);
+}
+
+nook_result nook_volumes_add_densities(const nook_scene *scene, uint32_t resolution, nook_scene_volumes *volumes)
+{
+    nook_result result = scene->density_count > 0 ? grow(scene, volumes) : NOOK_OK;
+    for (uint32_t i = 0; i < scene->density_count && result == NOOK_OK; i++) {
+        const nook_scene_density *density = &scene->densities[i];
+        nook_scene_volume volume = { .name = strdup(density->name), .medium = &density->medium, .instances = 1 };
+        if (!volume.name)
+            return nook_fail(NOOK_E_MEMORY, "%s: no memory for a density", scene->path);
+        volume.resolution =
+            nook_medium_resolution(&density->medium, resolution ? resolution : NOOK_VOLUMES_RESOLUTION_DEFAULT);
+        for (int axis = 0; axis < 3; axis++)
+            volume.longest = fmax(volume.longest, density->medium.spacing[axis] * density->medium.size[axis]);
+        volumes->occluders[volumes->occluder_count++] =
+            (nook_scene_occluder){ volumes->volume_count, NOOK_NONE, density->world_from_local, false };
+        volumes->volumes[volumes->volume_count++] = volume;
+    }
+    return result;
+}
+
 nook_result nook_volumes_bake(const nook_scene *scene, const nook_volumes_desc *desc, nook_scene_volumes *out)
 {
     nook_scene_volumes volumes;
@@ -161,6 +195,8 @@ nook_result nook_volumes_bake(const nook_scene *scene, const nook_volumes_desc *
     if (result != NOOK_OK)
         return result;
     result = nook_plan_apply_to(scene, &volumes);
+    if (result == NOOK_OK)
+        result = nook_volumes_add_densities(scene, desc->resolution, &volumes);
     if (result == NOOK_OK)
         result = bake_all(desc, &volumes);
     if (result != NOOK_OK) {

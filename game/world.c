@@ -1,4 +1,5 @@
 #include "game/world.h"
+#include "engine/core/clock.h"
 #include "engine/core/log.h"
 #include "game/animation.h"
 #include "game/draw_list.h"
@@ -6,6 +7,7 @@
 #include "game/stream_volumes.h"
 #include "game/volumes.h"
 #include "modules/ao/residency.h"
+#include "modules/bake/medium_bake.h"
 #include <assert.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -106,10 +108,40 @@ static nook_result extend(nook_game_world *world, const nook_scene_volume *baked
     return result;
 }
 
+/* Bakes a medium and uploads it, for those who march densities and for the reference. */
+static nook_result upload_medium(nook_game_world *world, const nook_scene_volume *medium, nook_world_volume *volume)
+{
+    nook_bake bake = { .ms = 0.0 };
+    nook_volume densities;
+    if (!(nook_ao_volume_kinds(world->ao) & NOOK_VOLUME_BIT(NOOK_VOLUME_DENSITY)))
+        nook_log_warning("%s: a density is seen by the reference, and by volume with volume.kind=density; not as "
+                         "techniques are set now",
+                         medium->name);
+    nook_ao_written written = { .whole = false };
+    double start = nook_clock_ms();
+    nook_result result = nook_medium_bake(medium->medium, medium->resolution, 0, &densities);
+    if (result != NOOK_OK)
+        return result;
+    result = nook_ao_reserve_volume(world->ao, &volume->occluder.volume);
+    if (result == NOOK_OK && !nook_ao_place_volume(world->ao, volume->occluder.volume, &densities.info))
+        result = nook_fail(NOOK_E_MEMORY, "%s: no room for its densities", medium->name);
+    while (result == NOOK_OK && !written.whole)
+        result = nook_ao_write_volume(world->ao, volume->occluder.volume, &densities, SIZE_MAX, &written);
+    bake.info = densities.info;
+    bake.ms = nook_clock_ms() - start;
+    nook_volume_free(&densities);
+    if (result != NOOK_OK)
+        return result;
+    describe_bake(&bake, volume);
+    return nook_ao_add_medium(world->ao, medium->medium, &volume->occluder.mesh);
+}
+
 /* Uploads a volume and its triangles. */
 static nook_result upload(nook_game_world *world, const nook_scene_volume *baked, nook_world_volume *volume)
 {
     nook_result result = NOOK_OK;
+    if (baked->medium)
+        return upload_medium(world, baked, volume);
     volume->streamed = world->stream && nook_volume_can_stream(baked);
     if (!volume->streamed)
         result = nook_ao_reserve_volume(world->ao, &volume->occluder.volume);

@@ -70,6 +70,12 @@ typedef struct nook_gltf_reason {
  */
 nook_result nook_gltf_read_uri(const nook_gltf *gltf, uint32_t uri, nook_gltf_bytes *out_bytes,
                                nook_gltf_reason *out_reason);
+/**
+ * The path of the file a "uri" stands for: a regular file as above; data: URIs are refused. The scene remembers it.
+ * @return as nook_gltf_read_uri
+ */
+nook_result nook_gltf_uri_path(const nook_gltf *gltf, uint32_t uri, char *out_path, size_t capacity,
+                               nook_gltf_reason *out_reason);
 /** Whether a "uri" may be opened at all. @param what  "buffers[2]", for the message. @return NOOK_E_FORMAT, logged */
 nook_result nook_gltf_check_uri(const nook_gltf *gltf, const char *what, uint32_t uri);
 /** Reads all buffers. @return as nook_gltf_read_uri, logged */
@@ -92,6 +98,8 @@ const nook_gltf_slot *nook_gltf_material_uv_slot(const nook_gltf *gltf, uint32_t
 
 nook_result nook_gltf_convert_meshes(nook_gltf *gltf);
 nook_result nook_gltf_convert_nodes(nook_gltf *gltf);
+/** Reads the scalar fields that nodes of the scene name. @return NOOK_E_FORMAT, and what nook_scalar_volume_load returns, logged */
+nook_result nook_gltf_convert_densities(nook_gltf *gltf);
 /** Makes the camera and the light of a node; there is room for them. @return NOOK_E_MEMORY */
 nook_result nook_gltf_attach(nook_gltf *gltf, const nook_gltf_node *from, const nook_matrix *world_from_local,
                              nook_node *to);

@@ -20,8 +20,9 @@ static nook_result load(nook_gltf *gltf, const nook_scene_options *options)
         (result = nook_gltf_check_accessors(gltf)) ||
         (result = nook_gltf_read_images(gltf, !(options && options->skip_images))) ||
         (result = nook_gltf_convert_materials(gltf)) || (result = nook_gltf_convert_meshes(gltf)) ||
-        (result = nook_gltf_convert_nodes(gltf)) || (result = nook_gltf_convert_skins(gltf)) ||
-        (result = nook_gltf_convert_deformables(gltf)) || (result = nook_gltf_convert_animations(gltf)))
+        (result = nook_gltf_convert_nodes(gltf)) || (result = nook_gltf_convert_densities(gltf)) ||
+        (result = nook_gltf_convert_skins(gltf)) || (result = nook_gltf_convert_deformables(gltf)) ||
+        (result = nook_gltf_convert_animations(gltf)))
         return result;
     trim(gltf->scene);
     return nook_scene_finish(gltf->scene);

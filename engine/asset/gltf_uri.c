@@ -168,13 +168,12 @@ static nook_result read_data(char *text, nook_gltf_bytes *out_bytes, nook_gltf_r
     return NOOK_OK;
 }
 
-static nook_result read_beside(const nook_gltf *gltf, const char *name, nook_gltf_bytes *out_bytes,
+static nook_result find_beside(const nook_gltf *gltf, const char *name, char *path, size_t capacity,
                                nook_gltf_reason *out_reason)
 {
-    char path[PATH_CAPACITY];
     struct stat info;
     size_t folder = (size_t)(nook_path_name(gltf->path) - gltf->path);
-    if (folder + strlen(name) >= sizeof path)
+    if (folder + strlen(name) >= capacity)
         return refuse(NOOK_E_FORMAT, out_reason, "its path is too long");
     memcpy(path, gltf->path, folder);
     memcpy(path + folder, name, strlen(name) + 1);
@@ -185,8 +184,18 @@ static nook_result read_beside(const nook_gltf *gltf, const char *name, nook_glt
         return refuse(NOOK_E_NOT_FOUND, out_reason, "its file '%.*s' cannot be read: %s", SHOWN, name, strerror(errno));
     if (!S_ISREG(info.st_mode))
         return refuse(NOOK_E_IO, out_reason, "'%.*s' is not a regular file", SHOWN, name);
+    return NOOK_OK;
+}
+
+static nook_result read_beside(const nook_gltf *gltf, const char *name, nook_gltf_bytes *out_bytes,
+                               nook_gltf_reason *out_reason)
+{
+    char path[PATH_CAPACITY];
     nook_file file;
-    nook_result result = nook_file_read(path, &file);
+    nook_result result = find_beside(gltf, name, path, sizeof path, out_reason);
+    if (result != NOOK_OK)
+        return result;
+    result = nook_file_read(path, &file);
     if (result != NOOK_OK)
         return refuse(result, out_reason, "its file '%.*s' could not be read", SHOWN, name);
     *out_bytes = (nook_gltf_bytes){ file.bytes, file.size, file.bytes };
@@ -204,6 +213,19 @@ nook_result nook_gltf_read_uri(const nook_gltf *gltf, uint32_t uri, nook_gltf_by
     if (is_data(text))
         return read_data(text, out_bytes, out_reason);
     result = read_beside(gltf, text, out_bytes, out_reason);
+    free(text);
+    return result;
+}
+
+nook_result nook_gltf_uri_path(const nook_gltf *gltf, uint32_t uri, char *out_path, size_t capacity,
+                               nook_gltf_reason *out_reason)
+{
+    char *text = NULL;
+    nook_result result = decode_uri(gltf, uri, &text, out_reason);
+    if (!text)
+        return result;
+    result = is_data(text) ? refuse(NOOK_E_FORMAT, out_reason, "is a data uri; give the name of a file")
+                           : find_beside(gltf, text, out_path, capacity, out_reason);
     free(text);
     return result;
 }

@@ -69,6 +69,20 @@ bool nook_scene_add_file(nook_scene *scene, const char *path)
     return true;
 }
 
+nook_result nook_scene_add_density(nook_scene *scene, const char *name, const nook_medium *medium,
+                                   const nook_matrix *world_from_local)
+{
+    if (scene->density_count == NOOK_SCENE_DENSITIES_MAX)
+        return nook_fail(NOOK_E_FORMAT, "%s: more than %d densities", scene->path, NOOK_SCENE_DENSITIES_MAX);
+    if (!scene->densities)
+        scene->densities = nook_scene_allocate(scene->path, NOOK_SCENE_DENSITIES_MAX, sizeof *scene->densities);
+    char *copy = scene->densities ? nook_scene_copy_string(name) : NULL;
+    if (!copy)
+        return NOOK_E_MEMORY;
+    scene->densities[scene->density_count++] = (nook_scene_density){ copy, *medium, *world_from_local };
+    return NOOK_OK;
+}
+
 void nook_scene_default_material(nook_material *out_material)
 {
     *out_material = (nook_material){
@@ -248,6 +262,11 @@ void nook_scene_destroy(nook_scene *scene)
     for (uint32_t i = 0; scene->cameras && i < scene->camera_count; i++)
         free(scene->cameras[i].name);
     nook_scene_forget_motion(scene);
+    for (uint32_t i = 0; i < scene->density_count; i++) {
+        free(scene->densities[i].name);
+        free((void *)(uintptr_t)scene->densities[i].medium.extinction);
+    }
+    free(scene->densities);
     for (uint32_t i = 0; i < scene->warning_count; i++)
         free(scene->warnings[i]);
     for (uint32_t i = 0; i < scene->file_count; i++)

@@ -7,6 +7,7 @@
 #pragma once
 #include "engine/asset/scene_motion.h"
 #include "engine/core/matrix.h"
+#include "engine/core/medium.h"
 #include "engine/core/result.h"
 #include <stdbool.h>
 #include <stddef.h>
@@ -102,6 +103,15 @@ typedef struct nook_light {
     nook_matrix world_from_light; /**< Shines along -Z. */
 } nook_light;
 
+enum { NOOK_SCENE_DENSITIES_MAX = 64 };
+
+/** A scalar field that darkens what is around it: extras {"nook_density": ...} of a node (docs/volume_kinds.md). Nothing draws it. */
+typedef struct nook_scene_density {
+    char *name;                   /**< Of its node, never NULL. */
+    nook_medium medium;           /**< Local space; its extinction is owned. */
+    nook_matrix world_from_local; /**< Of its node as loaded; invertible. It stands still. */
+} nook_scene_density;
+
 typedef struct nook_scene {
     char *path;
     nook_vertex *vertices;
@@ -123,6 +133,8 @@ typedef struct nook_scene {
     uint32_t camera_count; /**< One per node that has a camera. */
     nook_light *lights;
     uint32_t light_count; /**< One per node that has a light. */
+    nook_scene_density *densities;
+    uint32_t density_count; /**< At most NOOK_SCENE_DENSITIES_MAX; NULL and 0 for most scenes. */
     uint32_t skin_count, joint_count, deformable_count, morph_weight_count, joint_box_count, target_box_count,
         clip_count, track_count, track_value_count;
     nook_node_rest *rest; /**< As nodes; NULL in scenes that no file was loaded for. */

@@ -9,6 +9,9 @@ void nook_scene_warn(nook_scene *scene, const char *format, ...) NOOK_PRINTF(2, 
 
 /** Remembers a file that the scene is made of, once; also one that could not be read. @return false, logged: no memory */
 bool nook_scene_add_file(nook_scene *scene, const char *path);
+/** Takes over the extinction of a medium on success. @return NOOK_E_FORMAT too many; NOOK_E_MEMORY */
+nook_result nook_scene_add_density(nook_scene *scene, const char *name, const nook_medium *medium,
+                                   const nook_matrix *world_from_local);
 
 /** A copy; "" for NULL. @return NULL, logged, when out of memory */
 char *nook_scene_copy_string(const char *text);

@@ -167,6 +167,19 @@ static nook_result append_files(nook_scene *to, const nook_scene *from)
     return NOOK_OK;
 }
 
+/* Takes the cells of a part over, as the pixels of its images. */
+static nook_result append_densities(nook_scene *to, nook_scene *from)
+{
+    for (uint32_t i = 0; i < from->density_count; i++) {
+        nook_scene_density *density = &from->densities[i];
+        nook_result result = nook_scene_add_density(to, density->name, &density->medium, &density->world_from_local);
+        if (result != NOOK_OK)
+            return result;
+        density->medium.extinction = NULL;
+    }
+    return NOOK_OK;
+}
+
 static nook_result append_part(nook_scene *to, const nook_scene_part *part, uint32_t *out_first_mesh)
 {
     const offsets at = { .primitive = to->primitive_count,
@@ -185,7 +198,9 @@ static nook_result append_part(nook_scene *to, const nook_scene_part *part, uint
         result = append_materials(to, part->scene, &at);
     if (result == NOOK_OK)
         result = append_files(to, part->scene);
-    return result == NOOK_OK && part->nodes ? append_nodes(to, part->scene, &at) : result;
+    if (result == NOOK_OK && part->nodes)
+        result = append_nodes(to, part->scene, &at);
+    return result == NOOK_OK && part->nodes ? append_densities(to, part->scene) : result;
 }
 
 static nook_result append_instance(nook_scene *to, const nook_scene_part *part, uint32_t first_mesh,

@@ -160,10 +160,13 @@ static int bake_file(const char *path, const nook_volumes_desc *desc, uint32_t l
     nook_result result = nook_moment_stand_still(scene, &(nook_moment){ .clip = NULL });
     if (result == NOOK_OK)
         result = levels == 1 ? bake_one_level(scene, desc, &sum) : bake_several_levels(scene, desc, levels, &sum);
+    uint32_t densities = scene->density_count;
     bool drawn = scene->triangle_count > 0; /* else the loader has said so */
     nook_scene_destroy(scene);
     if (result != NOOK_OK)
         return NOOK_EXIT_FAILED;
+    if (densities > 0)
+        printf("%u densities are baked when they are marched (volume.kind=density), and not kept\n", densities);
     if (drawn && sum.volumes == 0)
         nook_log_warning("%s: all that it draws is blended or without area: there is nothing to bake", path);
     return NOOK_EXIT_OK;

@@ -146,6 +146,7 @@ static int print_scene(const nook_scene *scene, bool as_json)
         { "animations", scene->clip_count },
         { "deformables", scene->deformable_count },
         { "bodies", count_bodies(scene) },
+        { "densities", scene->density_count },
     };
     bool empty = scene->bounds_min[0] > scene->bounds_max[0];
     if (as_json)

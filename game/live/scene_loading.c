@@ -82,6 +82,8 @@ static void *run(void *user)
         load->result = check_images(load);
     if (load->result == NOOK_OK && load->desc.live) {
         load->result = nook_volumes_collect(load->loaded.scene, &volumes, &load->loaded.volumes);
+        if (load->result == NOOK_OK)
+            load->result = nook_volumes_add_densities(load->loaded.scene, load->desc.resolution, &load->loaded.volumes);
     } else if (load->result == NOOK_OK) {
         volumes.before = collect_shown(load, &volumes, &shown);
         load->result = nook_volumes_bake(load->loaded.scene, &volumes, &load->loaded.volumes);

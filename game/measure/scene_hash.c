@@ -63,6 +63,19 @@ static uint64_t add_nodes(uint64_t hash, const nook_scene *scene)
     return hash;
 }
 
+/* Nothing where there are none: truths that were kept stay valid. */
+static uint64_t add_densities(uint64_t hash, const nook_scene *scene)
+{
+    for (uint32_t i = 0; i < scene->density_count; i++) {
+        const nook_medium *medium = &scene->densities[i].medium;
+        hash = add(hash, medium->size, sizeof medium->size);
+        hash = add(hash, medium->spacing, sizeof medium->spacing);
+        hash = add(hash, medium->extinction, (size_t)nook_medium_cells(medium) * sizeof *medium->extinction);
+        hash = add(hash, scene->densities[i].world_from_local.m, sizeof scene->densities[i].world_from_local.m);
+    }
+    return hash;
+}
+
 static uint64_t add_cameras(uint64_t hash, const nook_scene *scene)
 {
     for (uint32_t i = 0; i < scene->camera_count; i++) {
@@ -93,6 +106,7 @@ uint64_t nook_scene_hash(const nook_scene *scene)
     hash = add(hash, scene->indices, scene->index_count * sizeof *scene->indices);
     hash = add_meshes(hash, scene);
     hash = add_nodes(hash, scene);
+    hash = add_densities(hash, scene);
     hash = add_materials(hash, scene);
     hash = add_images(hash, scene);
     hash = add_cameras(hash, scene);

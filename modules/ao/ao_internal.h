@@ -31,6 +31,7 @@ typedef struct ao_mesh {
     float *positions;
     uint32_t *indices;
     ao_mesh_alphas *alphas; /**< NULL: all is opaque. */
+    nook_medium *medium;    /**< NULL: triangles. With its cells in one block. */
 } ao_mesh;
 
 /** Row of the GPU's occluder list: struct Occluder of shaders/ao/occluders.glsl. */
@@ -39,7 +40,7 @@ typedef struct ao_gpu_occluder {
     float normal_from_view[3][4]; /**< Rows of the inverse transpose of the 3x3 part; w unused. */
     float size[4];                /**< Voxels; w: the box's bounding radius in metres. */
     /** Voxel in its kind's atlas that is the volume's (0, 0, 0). Surfel: number of its first brick, x + 65536 y; a float alone
-        does not hold all of them. */
+        does not hold all of them. Density, w: nook_volume_info.depth_of_255. */
     float place[4];
     float centre[4]; /**< View space, metres; w unused. */
 } ao_gpu_occluder;

@@ -73,6 +73,7 @@ static void free_mesh(ao_mesh *mesh)
     free(mesh->positions);
     free(mesh->indices);
     ao_mesh_alphas_destroy(mesh->alphas);
+    free(mesh->medium);
 }
 
 nook_result nook_ao_add_mesh_with_alphas(nook_ao *ao, const float *positions, uint32_t vertex_count,
@@ -109,6 +110,41 @@ nook_result nook_ao_add_mesh(nook_ao *ao, const float *positions, uint32_t verte
                              uint32_t index_count, nook_ao_mesh *out_mesh)
 {
     return nook_ao_add_mesh_with_alphas(ao, positions, vertex_count, indices, index_count, NULL, out_mesh);
+}
+
+/* ---- Media ------------------------------------------------------------------------------------------------------ */
+
+static nook_result check_medium(const nook_medium *medium)
+{
+    uint64_t count = nook_medium_cells(medium);
+    for (int axis = 0; axis < 3; axis++)
+        if (medium->size[axis] == 0 || !isfinite(medium->spacing[axis]) || !(medium->spacing[axis] > 0.0))
+            return nook_fail(NOOK_E_ARG, "medium: %u cells of %g m", medium->size[axis], medium->spacing[axis]);
+    for (uint64_t i = 0; i < count; i++)
+        if (!isfinite(medium->extinction[i]) || medium->extinction[i] < 0.0f)
+            return nook_fail(NOOK_E_ARG, "medium: the extinction of cell %llu is %g", (unsigned long long)i,
+                             (double)medium->extinction[i]);
+    return NOOK_OK;
+}
+
+nook_result nook_ao_add_medium(nook_ao *ao, const nook_medium *medium, nook_ao_mesh *out_mesh)
+{
+    nook_result result = check_medium(medium);
+    if (result != NOOK_OK)
+        return result;
+    size_t size = (size_t)nook_medium_cells(medium) * sizeof *medium->extinction;
+    nook_medium *copy = malloc(sizeof *copy + size);
+    if (!copy || !reserve_mesh(ao)) {
+        free(copy);
+        return nook_fail(NOOK_E_MEMORY, "medium: no memory for %zu bytes", size);
+    }
+    memcpy(copy + 1, medium->extinction, size);
+    *copy = *medium;
+    copy->extinction = (const float *)(copy + 1);
+    ao_mesh mesh = { .view = { .medium = copy, .id = ao->next_mesh_id++ }, .medium = copy };
+    ao->meshes[ao->mesh_count++] = mesh;
+    out_mesh->id = mesh.view.id;
+    return NOOK_OK;
 }
 
 /** Meshes stand in the order of their ids: they are added at the end, and removal keeps the order. */

@@ -13,6 +13,7 @@
  */
 #pragma once
 #include "engine/core/alpha.h"
+#include "engine/core/medium.h"
 #include "engine/core/rectangle.h"
 #include "engine/core/result.h"
 #include <stddef.h>
@@ -192,6 +193,12 @@ nook_result nook_ao_add_mesh(nook_ao *ao, const float *positions, uint32_t verte
 nook_result nook_ao_add_mesh_with_alphas(nook_ao *ao, const float *positions, uint32_t vertex_count,
                                          const uint32_t *indices, uint32_t index_count, const nook_alphas *alphas,
                                          nook_ao_mesh *out_mesh);
+/**
+ * Keeps a copy of a medium for the reference, as a mesh without triangles: its rays are stopped in it with the probability of what it takes.
+ * What marches volumes needs its densities besides (modules/bake/medium_bake.h, modules/ao/residency.h).
+ * @return NOOK_E_ARG no cells, a spacing that is none, an extinction that is negative or not finite; NOOK_E_MEMORY
+ */
+nook_result nook_ao_add_medium(nook_ao *ao, const nook_medium *medium, nook_ao_mesh *out_mesh);
 void nook_ao_remove_mesh(nook_ao *ao, nook_ao_mesh mesh);
 
 /** Chooses who records. Its parameters keep their values. @return NOOK_E_NOT_FOUND (the line lists the names) */

@@ -103,6 +103,7 @@ static void set_place(const nook_ao *ao, uint32_t id, const nook_volume_info *in
     const atlas_box *box = &volume_atlas_find(&ao->atlases[info->kind], id)->box;
     for (int axis = 0; axis < 3; axis++)
         out->place[axis] = (float)box->origin[axis];
+    out->place[3] = (float)info->depth_of_255;
 }
 
 uint32_t ao_collect_volumes(nook_ao *ao, const nook_matrix *view_from_world, uint32_t kinds)

@@ -14,7 +14,7 @@
 extern "C" {
 #endif
 
-#define NOOK_AO_TECHNIQUE_VERSION 10
+#define NOOK_AO_TECHNIQUE_VERSION 11
 
 /** A box of voxels. */
 typedef struct nook_ao_box {
@@ -30,7 +30,9 @@ typedef struct nook_ao_mesh_view {
     uint32_t vertex_count, index_count;
     uint32_t solid_index_count; /**< Of the indices: those before blended parts. */
     const nook_alphas *alphas;  /**< NULL: all is opaque. Lives as long as the mesh. */
-    uint32_t id;                /**< Never reused: a cache key. */
+    const nook_medium
+        *medium; /**< Instead of triangles, of which there are none then. NULL: none. Lives as long as the mesh. */
+    uint32_t id; /**< Never reused: a cache key. */
 } nook_ao_mesh_view;
 
 /** One traced instance of this frame: view space, metres, composed in double. */

@@ -40,6 +40,9 @@ typedef struct nook_volume_info {
     double voxel_size;             /**< Metres in mesh space, > 0; the same on all axes. */
     double origin[3];              /**< Metres, mesh space: outer corner of voxel (0, 0, 0). */
     uint64_t content_hash;         /**< Of the triangles and the bake settings; tells a stale bake. */
+    /** Of a medium (medium_bake.h): its densities are optical depths, this that of a voxel of 255 along its side, natural logarithm; > 0.
+        0: alphas of surfaces. In no file. */
+    double depth_of_255;
     uint64_t occupied; /**< Voxels that are not 0, have a surfel, or whose distance is below NOOK_DISTANCE_OCCUPIED. */
 } nook_volume_info;
 

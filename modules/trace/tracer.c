@@ -1,6 +1,7 @@
 #include "modules/trace/tracer.h"
 #include "engine/core/log.h"
 #include "modules/trace/ray_filter.h"
+#include "modules/trace/ray_medium.h"
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -11,6 +12,7 @@ typedef struct traced_mesh {
     uint32_t id;
     RTCScene scene;
     nook_ray_filter *filter; /* NULL: all is opaque */
+    nook_ray_medium *medium; /* NULL: triangles */
 } traced_mesh;
 
 struct nook_tracer {
@@ -43,6 +45,7 @@ static void release_mesh(traced_mesh *mesh)
 {
     rtcReleaseScene(mesh->scene);
     nook_ray_filter_destroy(mesh->filter);
+    free(mesh->medium);
 }
 
 void nook_tracer_destroy(nook_tracer *t)
@@ -91,6 +94,17 @@ static void put_world(nook_tracer *t, RTCScene world)
     t->world = world;
 }
 
+/* A scene of one geometry, which it takes over. */
+static RTCScene scene_of(const nook_tracer *t, RTCGeometry geometry)
+{
+    RTCScene scene = new_scene(t);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene, geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(scene);
+    return scene;
+}
+
 /** Embree reads 16 bytes at each vertex, so positions get one float of padding: they are copied into its own buffer. */
 static RTCScene build_triangles(const nook_tracer *t, const float *positions, uint32_t vertex_count,
                                 const uint32_t *indices, uint32_t index_count, nook_ray_filter *filter)
@@ -108,12 +122,20 @@ static RTCScene build_triangles(const nook_tracer *t, const float *positions, ui
     memcpy(index_buffer, indices, (size_t)index_count * sizeof *indices);
     if (filter)
         nook_ray_filter_apply(filter, geometry);
-    rtcCommitGeometry(geometry);
-    RTCScene scene = new_scene(t);
-    rtcAttachGeometry(scene, geometry);
-    rtcReleaseGeometry(geometry);
-    rtcCommitScene(scene);
-    return scene;
+    return scene_of(t, geometry);
+}
+
+/* @param out_medium  what the scene refers to, yours to free after it */
+static RTCScene build_medium(const nook_tracer *t, const nook_ao_mesh_view *mesh, nook_ray_medium **out_medium)
+{
+    nook_ray_medium *medium = malloc(sizeof *medium);
+    RTCGeometry geometry = NULL;
+    if (medium) {
+        *medium = (nook_ray_medium){ mesh->medium, mesh->id };
+        geometry = nook_ray_medium_create(t->device, medium);
+    }
+    *out_medium = medium;
+    return geometry ? scene_of(t, geometry) : NULL;
 }
 
 static nook_result add_mesh(nook_tracer *t, const nook_ao_mesh_view *mesh)
@@ -129,14 +151,18 @@ static nook_result add_mesh(nook_tracer *t, const nook_ao_mesh_view *mesh)
         t->mesh_capacity = capacity;
     }
     nook_ray_filter *filter = mesh->alphas ? nook_ray_filter_create(mesh) : NULL;
+    nook_ray_medium *medium = NULL;
     RTCScene scene = NULL;
-    if (filter || !mesh->alphas)
+    if (mesh->medium)
+        scene = build_medium(t, mesh, &medium);
+    else if (filter || !mesh->alphas)
         scene = build_triangles(t, mesh->positions, mesh->vertex_count, mesh->indices, mesh->index_count, filter);
     if (!scene) {
         nook_ray_filter_destroy(filter);
+        free(medium);
         return nook_fail(NOOK_E_MEMORY, "ray tracer: no memory for %u triangles", mesh->index_count / 3);
     }
-    t->meshes[t->mesh_count++] = (traced_mesh){ mesh->id, scene, filter };
+    t->meshes[t->mesh_count++] = (traced_mesh){ mesh->id, scene, filter, medium };
     return check_device(t);
 }
 
@@ -172,7 +198,8 @@ nook_result nook_tracer_update(nook_tracer *t, const nook_ao_pass *pass)
 {
     drop_removed(t, pass);
     for (uint32_t i = 0; i < pass->mesh_count; i++) {
-        nook_result result = pass->meshes[i].index_count ? add_mesh(t, &pass->meshes[i]) : NOOK_OK;
+        bool stops = pass->meshes[i].index_count || pass->meshes[i].medium;
+        nook_result result = stops ? add_mesh(t, &pass->meshes[i]) : NOOK_OK;
         if (result != NOOK_OK)
             return result;
     }

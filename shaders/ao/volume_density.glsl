@@ -24,7 +24,8 @@ Receiver receive(Occluder o, vec3 position, vec3 normal)
     Receiver r;
     r.voxel = to_voxel(o, position);
     r.normal = normalize(normal_to_voxel(o, normal));
-    r.own = 0.5 * max(abs(r.normal.x), max(abs(r.normal.y), abs(r.normal.z))) + 0.002 + params.own_distance;
+    bool medium = o.place.w > 0.0; // has no surface of its own: what lies around the fragment takes its part
+    r.own = medium ? -1.0 : 0.5 * max(abs(r.normal.x), max(abs(r.normal.y), abs(r.normal.z))) + 0.002 + params.own_distance;
     float top = dot(r.normal, 0.5 * o.size.xyz - r.voxel) + dot(abs(r.normal), 0.5 * o.size.xyz - 1.5);
     r.can_see = is_near(o, r.voxel) && top > r.own;
     return r;
@@ -45,7 +46,7 @@ void leave_layer(float metre, inout Layer layer, inout Passage passage)
 // From voxel to voxel: the axis on which one is left is stepped by an integer, so that no rounding turns a ray back. A straight line
 // crosses no more voxels than the volume has along its three sides together: the loop is no longer than that. A layer counts once
 // on a ray, with the largest alpha that the ray meets in it; one that begins within reach is walked to its end.
-Passage walk_volume(Occluder o, Receiver r, vec3 d, float limit)
+Passage walk_layers(Occluder o, Receiver r, vec3 d, float limit)
 {
     Passage passage = free_passage();
     Layer layer = Layer(0.0, 0.0, 0.0);
@@ -79,6 +80,42 @@ Passage walk_volume(Occluder o, Receiver r, vec3 d, float limit)
     }
     leave_layer(metre, layer, passage);
     return passage;
+}
+
+// Through a medium: each voxel takes its part of what is left, at the middle of the ray's way through it. What lets less through than a
+// step of 8 bits ends the ray.
+Passage walk_medium(Occluder o, Receiver r, vec3 d, float limit)
+{
+    Passage passage = free_passage();
+    vec3 along = direction_to_voxel(o, d), origin = r.voxel;
+    float metre = length(along);
+    along /= metre;
+    ivec3 size = ivec3(o.size.xyz), base = ivec3(o.place.xyz);
+    vec3 inverse = 1.0 / mix(along, vec3(1e-9), lessThan(abs(along), vec3(1e-9)));
+    ivec3 ahead = ivec3(step(0.0, along)), side = 2 * ahead - 1;
+    vec3 a = (1.0 - origin) * inverse, b = (vec3(size - 1) - origin) * inverse, near = min(a, b); // the outermost voxels are empty
+    float t = max(max(near.x, near.y), max(near.z, 0.0)), end = min(least(max(a, b)), min(frame.r_max, limit) * metre);
+    ivec3 voxel = clamp(ivec3(floor(origin + along * t)), ivec3(1), size - 2);
+    int most = line_voxels(size);
+    for (int turns = 0; turns < most && t < end && passage.transmittance > 1.0 / 512.0; turns++) {
+        steps++;
+        float depth = o.place.w * fetch_texel(volume_atlas, base + voxel).r;
+        vec3 exits = (vec3(voxel + ahead) - origin) * inverse;
+        float leave = max(least(exits), t), last = min(leave, end);
+        float taken = passage.transmittance * (1.0 - exp(-depth * (last - t)));
+        passage.occlusion += taken * falloff(0.5 * (t + last) / metre);
+        passage.transmittance -= taken;
+        voxel += side * ivec3(lessThanEqual(exits, vec3(leave)));
+        t = any(lessThan(voxel, ivec3(1))) || any(greaterThan(voxel, size - 2)) ? 1e30 : leave;
+    }
+    return passage;
+}
+
+Passage walk_volume(Occluder o, Receiver r, vec3 d, float limit)
+{
+    if (o.place.w > 0.0)
+        return walk_medium(o, r, d, limit);
+    return walk_layers(o, r, d, limit);
 }
 
 // What a ray of the full reach meets.

@@ -1,0 +1,55 @@
+#include "engine/asset/scalar_medium.h"
+#include "engine/core/log.h"
+#include <math.h>
+#include <stdlib.h>
+
+double nook_scalar_extinction(const nook_scalar_transfer *transfer, double sample)
+{
+    if (!isfinite(sample))
+        return 0.0;
+    /* Halved, so that the widest window does not overflow. */
+    double opacity = (0.5 * sample - 0.5 * transfer->low) / (0.5 * transfer->high - 0.5 * transfer->low);
+    opacity = fmin(fmax(opacity, 0.0), NOOK_SCALAR_OPACITY_MAX);
+    return -log1p(-opacity) / transfer->length;
+}
+
+static nook_result check(const char *name, const nook_scalar_volume *volume, const nook_scalar_transfer *transfer)
+{
+    if (!isfinite(transfer->low) || !isfinite(transfer->high) || !(transfer->low < transfer->high))
+        return nook_fail(NOOK_E_RANGE, "%s: its window is %g to %g; give two finite numbers, the lower one first", name,
+                         transfer->low, transfer->high);
+    if (!(transfer->length >= NOOK_SCALAR_LENGTH_MIN && transfer->length <= NOOK_SCALAR_LENGTH_MAX))
+        return nook_fail(NOOK_E_RANGE, "%s: its length is %g; give metres in [%g, %g]", name, transfer->length,
+                         NOOK_SCALAR_LENGTH_MIN, NOOK_SCALAR_LENGTH_MAX);
+    if (volume->components != 1)
+        return nook_fail(NOOK_E_FORMAT, "%s: %u numbers a sample; a density needs one", name, volume->components);
+    for (int axis = 0; axis < 3; axis++) {
+        double side = volume->spacing[axis] * volume->size[axis];
+        if (!(volume->spacing[axis] >= 1e-9 && side <= 1e9))
+            return nook_fail(NOOK_E_FORMAT,
+                             "%s: %u samples %g apart; a density has spacings of 1e-9 and sides up to 1e9 metres", name,
+                             volume->size[axis], volume->spacing[axis]);
+    }
+    return NOOK_OK;
+}
+
+nook_result nook_scalar_medium(const char *name, const nook_scalar_volume *volume, const nook_scalar_transfer *transfer,
+                               nook_medium *out_medium)
+{
+    nook_result result = check(name, volume, transfer);
+    if (result != NOOK_OK)
+        return result;
+    float *extinction = malloc((volume->sample_count + 1) * sizeof *extinction);
+    if (!extinction)
+        return nook_fail(NOOK_E_MEMORY, "%s: no memory for %zu samples", name, volume->sample_count);
+    if (volume->not_finite > 0)
+        nook_log_warning("%s: %zu samples are not finite; they darken nothing", name, volume->not_finite);
+    for (size_t i = 0; i < volume->sample_count; i++)
+        extinction[i] = (float)nook_scalar_extinction(transfer, nook_scalar_volume_sample(volume, i));
+    *out_medium = (nook_medium){ .extinction = extinction };
+    for (int axis = 0; axis < 3; axis++) {
+        out_medium->size[axis] = volume->size[axis];
+        out_medium->spacing[axis] = volume->spacing[axis];
+    }
+    return NOOK_OK;
+}

@@ -1,0 +1,34 @@
+/** ray_medium.h - rays are stopped in a medium: a box of its own to Embree; inside modules/trace only. */
+#pragma once
+#include "engine/core/medium.h"
+#include <embree3/rtcore.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/**
+ * Where a ray that comes from `origin` is stopped when all but `left` of such rays are: at the optical depth -ln(left).
+ * @param direction  of any length; distances are multiples of it
+ * @param left       (0, 1]
+ * @return in [near, far); INFINITY: it gets through
+ */
+double nook_medium_stop(const nook_medium *medium, const double origin[3], const double direction[3], double near,
+                        double far, double left);
+
+/** A medium, and the number that tells its chances from another's which lies in the same place. */
+typedef struct nook_ray_medium {
+    const nook_medium *medium; /**< Borrowed. */
+    uint32_t id;
+} nook_ray_medium;
+
+/**
+ * A geometry, not committed: a ray is stopped with the probability of what the medium takes of it, by the bits of the ray. So many rays see on
+ * average what each would see if it were weakened, and the same ray is always stopped in the same place.
+ * @param medium  outlives the geometry @return NULL when there is no memory
+ */
+RTCGeometry nook_ray_medium_create(RTCDevice device, nook_ray_medium *medium);
+
+#ifdef __cplusplus
+}
+#endif
