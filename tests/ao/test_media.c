@@ -74,6 +74,14 @@ static void test_a_homogeneous_cube_around_the_point_takes_what_its_reach_says(v
     }
 }
 
+static void test_drawn_boxes_see_a_medium_as_dispatches_do(void **state)
+{
+    ao_fixture *fixture = prepare(state, "1");
+    ao_fixture_param(fixture, "volume.path", "raster");
+    add_cube(fixture, 8.0, 0.0, 0.5, 0.0);
+    assert_true(fabs(measure(fixture, "volume") - (1.0 - exp(-0.5))) < 0.003);
+}
+
 static void test_twice_the_thickness_lets_through_the_square(void **state)
 {
     ao_fixture *thin = prepare(state, "0.4");
@@ -175,6 +183,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_a_homogeneous_cube_around_the_point_takes_what_its_reach_says),
+        cmocka_unit_test(test_drawn_boxes_see_a_medium_as_dispatches_do),
         cmocka_unit_test(test_twice_the_thickness_lets_through_the_square),
         cmocka_unit_test(test_volume_and_reference_see_the_same_cube_overhead),
         cmocka_unit_test(test_a_cube_below_or_out_of_reach_darkens_nothing),
