@@ -275,7 +275,9 @@ static void test_volume_read_refuses_bits_behind_the_last_voxel(void **state)
 
     /* 63 voxels need the same 8 bytes as 64. */
     uint8_t voxels[64] = { [13] = 255, [63] = 255 };
-    volume.info = (nook_volume_info){ NOOK_VOLUME_BINARY, 4, 4, 4, 1.0, { 0, 0, 0 }, 0, 2 };
+    volume.info = (nook_volume_info){
+        .kind = NOOK_VOLUME_BINARY, .width = 4, .height = 4, .depth = 4, .voxel_size = 1.0, .occupied = 2
+    };
     free(volume.voxels);
     volume.voxels = voxels;
     file = encode(&volume);
