@@ -196,9 +196,9 @@ nook_result nook_volumes_bake(const nook_scene *scene, const nook_volumes_desc *
         return result;
     result = nook_plan_apply_to(scene, &volumes);
     if (result == NOOK_OK)
-        result = nook_volumes_add_densities(scene, desc->resolution, &volumes);
-    if (result == NOOK_OK)
         result = bake_all(desc, &volumes);
+    if (result == NOOK_OK)
+        result = nook_volumes_add_densities(scene, desc->resolution, &volumes);
     if (result != NOOK_OK) {
         nook_volumes_free(&volumes);
         return result;

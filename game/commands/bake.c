@@ -166,7 +166,7 @@ static int bake_file(const char *path, const nook_volumes_desc *desc, uint32_t l
     if (result != NOOK_OK)
         return NOOK_EXIT_FAILED;
     if (densities > 0)
-        printf("%u densities are baked when they are marched (volume.kind=density), and not kept\n", densities);
+        printf("densities: %u, baked when the scene is opened, and not kept\n", densities);
     if (drawn && sum.volumes == 0)
         nook_log_warning("%s: all that it draws is blended or without area: there is nothing to bake", path);
     return NOOK_EXIT_OK;
