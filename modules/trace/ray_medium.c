@@ -1,6 +1,12 @@
 #include "modules/trace/ray_medium.h"
 #include "modules/trace/ray_chance.h"
 #include <math.h>
+#include <stdlib.h>
+
+struct nook_ray_medium {
+    const nook_medium *medium;
+    uint32_t id;
+};
 
 /* ---- A walk from cell to cell ------------------------------------------------------------------------------------ */
 
@@ -117,7 +123,20 @@ static void occlude(const struct RTCOccludedFunctionNArguments *asked)
             put(asked->ray, asked->N, i, RAY_FAR, &hit);
 }
 
-RTCGeometry nook_ray_medium_create(RTCDevice device, nook_ray_medium *medium)
+nook_ray_medium *nook_ray_medium_create(const nook_medium *medium, uint32_t id)
+{
+    nook_ray_medium *made = malloc(sizeof *made);
+    if (made)
+        *made = (nook_ray_medium){ medium, id };
+    return made;
+}
+
+void nook_ray_medium_destroy(nook_ray_medium *medium)
+{
+    free(medium);
+}
+
+RTCGeometry nook_ray_medium_geometry(RTCDevice device, nook_ray_medium *medium)
 {
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
     if (!geometry)

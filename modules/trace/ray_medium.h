@@ -16,18 +16,22 @@ extern "C" {
 double nook_medium_stop(const nook_medium *medium, const double origin[3], const double direction[3], double near,
                         double far, double left);
 
-/** A medium, and the number that tells its chances from another's which lies in the same place. */
-typedef struct nook_ray_medium {
-    const nook_medium *medium; /**< Borrowed. */
-    uint32_t id;
-} nook_ray_medium;
+typedef struct nook_ray_medium nook_ray_medium;
+
+/**
+ * @param medium  borrowed
+ * @param id      tells its chances from those of another one in the same place
+ * @return NULL when there is no memory
+ */
+nook_ray_medium *nook_ray_medium_create(const nook_medium *medium, uint32_t id);
+void nook_ray_medium_destroy(nook_ray_medium *medium); /**< NULL is allowed. Not before what Embree built with it. */
 
 /**
  * A geometry, not committed: a ray is stopped with the probability of what the medium takes of it, by the bits of the ray. So many rays see on
  * average what each would see if it were weakened, and the same ray is always stopped in the same place.
  * @param medium  outlives the geometry @return NULL when there is no memory
  */
-RTCGeometry nook_ray_medium_create(RTCDevice device, nook_ray_medium *medium);
+RTCGeometry nook_ray_medium_geometry(RTCDevice device, nook_ray_medium *medium);
 
 #ifdef __cplusplus
 }

@@ -45,7 +45,7 @@ static void release_mesh(traced_mesh *mesh)
 {
     rtcReleaseScene(mesh->scene);
     nook_ray_filter_destroy(mesh->filter);
-    free(mesh->medium);
+    nook_ray_medium_destroy(mesh->medium);
 }
 
 void nook_tracer_destroy(nook_tracer *t)
@@ -125,15 +125,11 @@ static RTCScene build_triangles(const nook_tracer *t, const float *positions, ui
     return scene_of(t, geometry);
 }
 
-/* @param out_medium  what the scene refers to, yours to free after it */
+/* @param out_medium  what the scene refers to, yours to destroy after it */
 static RTCScene build_medium(const nook_tracer *t, const nook_ao_mesh_view *mesh, nook_ray_medium **out_medium)
 {
-    nook_ray_medium *medium = malloc(sizeof *medium);
-    RTCGeometry geometry = NULL;
-    if (medium) {
-        *medium = (nook_ray_medium){ mesh->medium, mesh->id };
-        geometry = nook_ray_medium_create(t->device, medium);
-    }
+    nook_ray_medium *medium = nook_ray_medium_create(mesh->medium, mesh->id);
+    RTCGeometry geometry = medium ? nook_ray_medium_geometry(t->device, medium) : NULL;
     *out_medium = medium;
     return geometry ? scene_of(t, geometry) : NULL;
 }
@@ -159,7 +155,7 @@ static nook_result add_mesh(nook_tracer *t, const nook_ao_mesh_view *mesh)
         scene = build_triangles(t, mesh->positions, mesh->vertex_count, mesh->indices, mesh->index_count, filter);
     if (!scene) {
         nook_ray_filter_destroy(filter);
-        free(medium);
+        nook_ray_medium_destroy(medium);
         return nook_fail(NOOK_E_MEMORY, "ray tracer: no memory for %u triangles", mesh->index_count / 3);
     }
     t->meshes[t->mesh_count++] = (traced_mesh){ mesh->id, scene, filter, medium };
