@@ -23,8 +23,14 @@ static nook_result check(const char *name, const nook_scalar_volume *volume, con
                          NOOK_SCALAR_LENGTH_MIN, NOOK_SCALAR_LENGTH_MAX);
     if (volume->components != 1)
         return nook_fail(NOOK_E_FORMAT, "%s: %u numbers a sample; a density needs one", name, volume->components);
+    if (volume->sample_count > NOOK_MEDIUM_CELLS_MAX)
+        return nook_fail(NOOK_E_FORMAT, "%s: %zu samples; a density has up to %llu, make it coarser", name,
+                         volume->sample_count, NOOK_MEDIUM_CELLS_MAX);
     for (int axis = 0; axis < 3; axis++) {
         double side = volume->spacing[axis] * volume->size[axis];
+        if (volume->size[axis] > NOOK_MEDIUM_SIDE_MAX)
+            return nook_fail(NOOK_E_FORMAT, "%s: %u samples along an axis; a density has up to %u", name,
+                             volume->size[axis], NOOK_MEDIUM_SIDE_MAX);
         if (!(volume->spacing[axis] >= 1e-9 && side <= 1e9))
             return nook_fail(NOOK_E_FORMAT,
                              "%s: %u samples %g apart; a density has spacings of 1e-9 and sides up to 1e9 metres", name,

@@ -74,6 +74,12 @@ nook_result nook_scene_add_density(nook_scene *scene, const char *name, const no
 {
     if (scene->density_count == NOOK_SCENE_DENSITIES_MAX)
         return nook_fail(NOOK_E_FORMAT, "%s: more than %d densities", scene->path, NOOK_SCENE_DENSITIES_MAX);
+    uint64_t cells = nook_medium_cells(medium);
+    for (uint32_t i = 0; i < scene->density_count; i++)
+        cells += nook_medium_cells(&scene->densities[i].medium);
+    if (cells > NOOK_MEDIUM_CELLS_MAX)
+        return nook_fail(NOOK_E_FORMAT, "%s: its densities have more than %llu samples together; make them coarser",
+                         scene->path, NOOK_MEDIUM_CELLS_MAX);
     if (!scene->densities)
         scene->densities = nook_scene_allocate(scene->path, NOOK_SCENE_DENSITIES_MAX, sizeof *scene->densities);
     char *copy = scene->densities ? nook_scene_copy_string(name) : NULL;

@@ -19,6 +19,10 @@ typedef struct nook_medium {
     const float *extinction; /**< Per metre, finite, >= 0; x fastest, then y, then z. */
 } nook_medium;
 
+#define NOOK_MEDIUM_SIDE_MAX 65536u /**< Cells along an axis: as many are walked by a ray. */
+#define NOOK_MEDIUM_CELLS_MAX \
+    (1ull << 28) /**< Of a medium, and of all in a scene: 1 GiB, once in the scene and once in the AO. */
+
 static inline uint64_t nook_medium_cells(const nook_medium *medium)
 {
     return (uint64_t)medium->size[0] * medium->size[1] * medium->size[2];

@@ -116,10 +116,16 @@ nook_result nook_ao_add_mesh(nook_ao *ao, const float *positions, uint32_t verte
 
 static nook_result check_medium(const nook_medium *medium)
 {
-    uint64_t count = nook_medium_cells(medium);
-    for (int axis = 0; axis < 3; axis++)
-        if (medium->size[axis] == 0 || !isfinite(medium->spacing[axis]) || !(medium->spacing[axis] > 0.0))
+    for (int axis = 0; axis < 3; axis++) {
+        double side = medium->spacing[axis] * medium->size[axis];
+        if (medium->size[axis] == 0 || medium->size[axis] > NOOK_MEDIUM_SIDE_MAX || !(medium->spacing[axis] >= 1e-9) ||
+            !(side <= 1e9))
             return nook_fail(NOOK_E_ARG, "medium: %u cells of %g m", medium->size[axis], medium->spacing[axis]);
+    }
+    uint64_t count = nook_medium_cells(medium);
+    if (count > NOOK_MEDIUM_CELLS_MAX)
+        return nook_fail(NOOK_E_ARG, "medium: %llu cells; up to %llu", (unsigned long long)count,
+                         NOOK_MEDIUM_CELLS_MAX);
     for (uint64_t i = 0; i < count; i++)
         if (!isfinite(medium->extinction[i]) || medium->extinction[i] < 0.0f)
             return nook_fail(NOOK_E_ARG, "medium: the extinction of cell %llu is %g", (unsigned long long)i,

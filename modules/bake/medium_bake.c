@@ -4,6 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+static const double DEPTH_LEAST = 1e-30, DEPTH_MOST = 1e30; /* -ln of what gets through a voxel: all, nothing */
+
 typedef struct bake {
     const nook_medium *medium;
     double voxel; /* metres */
@@ -74,7 +76,7 @@ static void store(const bake *b, float highest, nook_volume *volume)
         for (uint32_t y = 1; y <= b->inner[1]; y++) {
             uint8_t *row = volume->voxels + ((size_t)z * info->height + y) * info->width;
             for (uint32_t x = 1; x <= b->inner[0]; x++, mean++) {
-                row[x] = highest > 0.0f ? (uint8_t)lroundf(255.0f * *mean / highest) : 0;
+                row[x] = highest > 0.0f ? (uint8_t)lroundf(255.0f * (*mean / highest)) : 0;
                 volume->info.occupied += row[x] > 0;
             }
         }
@@ -115,8 +117,11 @@ nook_result nook_medium_bake(const nook_medium *medium, uint32_t resolution, uns
     nook_parallel_for(b.inner[2], threads, fill_slices, &b);
     for (size_t i = 0; i < count; i++)
         highest = fmaxf(highest, b.means[i]);
+    if (highest * b.voxel <
+        DEPTH_LEAST) /* as a float on the GPU it might be 0, and bytes without a depth are opacities */
+        highest = 0.0f;
     store(&b, highest, &volume);
-    volume.info.depth_of_255 = (double)highest * b.voxel;
+    volume.info.depth_of_255 = fmin((double)highest * b.voxel, DEPTH_MOST);
     free(b.means);
     *out_volume = volume;
     return NOOK_OK;

@@ -87,7 +87,7 @@ static double stop_of(const nook_ray_medium *m, const void *rays, unsigned n, un
     }
     double near = fmax((double)number_of(rays, n, i, RAY_NEAR), 0.0);
     return nook_medium_stop(m->medium, origin, direction, near, (double)number_of(rays, n, i, RAY_FAR),
-                            1.0 - chance(rays, n, i, m->id));
+                            1.0 - chance(rays, n, i, ~m->id)); /* triangles count from 0: no bits in common */
 }
 
 static void put(void *packet, unsigned n, unsigned i, int which, const void *bits)

@@ -36,7 +36,7 @@ float depth_of_plane(Voter winner, vec3 ray, float seen)
 {
     float own = -winner.position.z, reach = 4.0 * own * pixel_footprint() * float(frame.scale);
     float met = dot(winner.normal, winner.position) / dot(winner.normal, ray);
-    float far = seen > own - reach ? min(seen, own + reach) : own + reach;
+    float far = seen > max(own - reach, 0.0) ? min(seen, own + reach) : own + reach;
     return met > 0.0 ? clamp(met, own - reach, far) : own; // not for NaN
 }
 

@@ -147,7 +147,7 @@ Passage walk(Ray ray, ivec3 size, int base)
 {
     Passage passage = free_passage();
     vec3 inverse = 1.0 / mix(ray.along, vec3(1e-9), lessThan(abs(ray.along), vec3(1e-9)));
-    vec3 forward = step(0.0, ray.along), side = vec3(size * BRICK);
+    vec3 forward = step(0.0, inverse), side = vec3(size * BRICK);
     vec3 a = -ray.origin * inverse, b = (side - ray.origin) * inverse, near = min(a, b);
     float t = max(max(near.x, near.y), max(near.z, 0.0)), end = min(least(max(a, b)), ray.reach);
     ivec3 voxel = clamp(ivec3(floor(ray.origin + ray.along * t)), ivec3(0), size * BRICK - 1);

@@ -55,7 +55,7 @@ Passage walk_layers(Occluder o, Receiver r, vec3 d, float limit)
     along /= metre;
     ivec3 size = ivec3(o.size.xyz), base = ivec3(o.place.xyz);
     vec3 inverse = 1.0 / mix(along, vec3(1e-9), lessThan(abs(along), vec3(1e-9)));
-    ivec3 ahead = ivec3(step(0.0, along)), side = 2 * ahead - 1;
+    ivec3 ahead = ivec3(step(0.0, inverse)), side = 2 * ahead - 1;
     vec3 a = (1.0 - origin) * inverse, b = (vec3(size - 1) - origin) * inverse, near = min(a, b); // the outermost voxels are empty
     float t = max(max(near.x, near.y), max(near.z, 0.0)), out_at = least(max(a, b));
     float end = min(out_at, min(frame.r_max, limit) * metre);
@@ -92,7 +92,7 @@ Passage walk_medium(Occluder o, Receiver r, vec3 d, float limit)
     along /= metre;
     ivec3 size = ivec3(o.size.xyz), base = ivec3(o.place.xyz);
     vec3 inverse = 1.0 / mix(along, vec3(1e-9), lessThan(abs(along), vec3(1e-9)));
-    ivec3 ahead = ivec3(step(0.0, along)), side = 2 * ahead - 1;
+    ivec3 ahead = ivec3(step(0.0, inverse)), side = 2 * ahead - 1;
     vec3 a = (1.0 - origin) * inverse, b = (vec3(size - 1) - origin) * inverse, near = min(a, b); // the outermost voxels are empty
     float t = max(max(near.x, near.y), max(near.z, 0.0)), end = min(least(max(a, b)), min(frame.r_max, limit) * metre);
     ivec3 voxel = clamp(ivec3(floor(origin + along * t)), ivec3(1), size - 2);

@@ -153,7 +153,13 @@ static void test_what_is_no_medium_is_refused(void **state)
     medium.spacing[1] = 0.0;
     assert_int_equal(nook_ao_add_medium(fixture->view->ao, &medium, &mesh), NOOK_E_ARG);
     medium.spacing[1] = 1.0;
-    medium.size[2] = 0;
+    for (uint32_t bad = 0; bad <= NOOK_MEDIUM_SIDE_MAX + 1; bad += NOOK_MEDIUM_SIDE_MAX + 1) {
+        medium.size[2] = bad;
+        assert_int_equal(nook_ao_add_medium(fixture->view->ao, &medium, &mesh), NOOK_E_ARG);
+    }
+    medium = (nook_medium){ { 1024, 1024, 1024 }, { 1, 1, 1 }, &cell }; /* never read */
+    assert_int_equal(nook_ao_add_medium(fixture->view->ao, &medium, &mesh), NOOK_E_ARG);
+    medium = (nook_medium){ { 1, 1, 1 }, { 1e300, 1, 1 }, &cell };
     assert_int_equal(nook_ao_add_medium(fixture->view->ao, &medium, &mesh), NOOK_E_ARG);
 }
 

@@ -1,5 +1,6 @@
 /* What becomes of samples: how much light they take. */
 #include "engine/asset/scalar_medium.h"
+#include "engine/asset/scene_internal.h"
 #include "tests/support/log_capture.h"
 #include <math.h>
 #include <stdlib.h>
@@ -132,6 +133,38 @@ static void test_vectors_and_sides_without_measure_are_refused(void **state)
     assert_refused(&v, &window, NOOK_E_FORMAT, "1e+12 apart");
 }
 
+static void test_more_samples_than_memory_should_go_for_are_refused(void **state)
+{
+    (void)state;
+    float sample = 1.0f;
+    nook_scalar_volume v = volume_of(&sample, 1);
+    v.sample_count = (size_t)NOOK_MEDIUM_CELLS_MAX + 1;
+    assert_refused(&v, &window, NOOK_E_FORMAT, "make it coarser");
+    v = volume_of(&sample, 1);
+    v.size[1] = NOOK_MEDIUM_SIDE_MAX + 1;
+    assert_refused(&v, &window, NOOK_E_FORMAT, "along an axis");
+}
+
+static void test_a_scene_has_no_more_samples_than_one_field_may_have(void **state)
+{
+    (void)state;
+    char path[] = "many.gltf";
+    nook_scene scene = { .path = path };
+    const nook_medium half = { { 512, 512, 512 }, { 1, 1, 1 }, NULL };
+    const nook_matrix at = nook_matrix_identity();
+    nook_log_capture capture;
+    nook_log_capture_begin(&capture);
+    assert_int_equal(nook_scene_add_density(&scene, "a", &half, &at), NOOK_OK);
+    assert_int_equal(nook_scene_add_density(&scene, "b", &half, &at), NOOK_OK);
+    assert_int_equal(nook_scene_add_density(&scene, "c", &half, &at), NOOK_E_FORMAT);
+    nook_log_capture_end();
+    assert_non_null(strstr(capture.text, "make them coarser"));
+    assert_int_equal(scene.density_count, 2);
+    for (uint32_t i = 0; i < scene.density_count; i++)
+        free(scene.densities[i].name);
+    free(scene.densities);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -142,6 +175,8 @@ int main(void)
         cmocka_unit_test(test_windows_upside_down_flat_or_endless_are_refused),
         cmocka_unit_test(test_lengths_that_are_none_are_refused),
         cmocka_unit_test(test_vectors_and_sides_without_measure_are_refused),
+        cmocka_unit_test(test_more_samples_than_memory_should_go_for_are_refused),
+        cmocka_unit_test(test_a_scene_has_no_more_samples_than_one_field_may_have),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -115,6 +115,25 @@ static void test_what_takes_nothing_is_empty(void **state)
     nook_volume_free(&v);
 }
 
+static void test_what_takes_less_than_a_gpu_tells_from_nothing_is_empty_and_what_takes_most_stays_finite(void **state)
+{
+    (void)state;
+    const float least[1] = { 1e-38f }, most[2] = { 3e38f, 1.5e38f };
+    const nook_medium thin = { { 1, 1, 1 }, { 1e-3, 1e-3, 1e-3 }, least };
+    const nook_medium thick = { { 2, 1, 1 }, { 10, 10, 10 }, most };
+    nook_volume v;
+    assert_int_equal(nook_medium_bake(&thin, 1, 1, &v), NOOK_OK);
+    assert_int_equal(v.info.occupied, 0);
+    assert_true(v.info.depth_of_255 == 0.0);
+    nook_volume_free(&v);
+    assert_int_equal(nook_medium_bake(&thick, 2, 1, &v), NOOK_OK);
+    const uint8_t *row = v.voxels + ((size_t)v.info.height + 1) * v.info.width;
+    assert_int_equal(row[1], 255);
+    assert_int_equal(row[2], 128);
+    assert_true(isfinite((float)v.info.depth_of_255));
+    nook_volume_free(&v);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -123,6 +142,7 @@ int main(void)
         cmocka_unit_test(test_sides_have_voxels_as_long_as_they_are),
         cmocka_unit_test(test_threads_make_no_difference),
         cmocka_unit_test(test_what_takes_nothing_is_empty),
+        cmocka_unit_test(test_what_takes_less_than_a_gpu_tells_from_nothing_is_empty_and_what_takes_most_stays_finite),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
