@@ -83,6 +83,10 @@ static nook_result fit_lists(nook_ao *ao)
 {
     ao_reuse *reuse = &ao->reuse;
     const size_t moved_max = 2 * (size_t)ao->occluder_max, box_max = ao->occluder_max * (size_t)(AO_REUSE_MOST - 1);
+    /* As it is and as it was; or, with ao.reuse_error, once and with its boxes. */
+    const size_t twice = moved_max * sizeof *reuse->moved,
+                 boxed = ao->occluder_max * sizeof *reuse->moved + box_max * sizeof *reuse->boxes;
+    const size_t most_bytes = twice > boxed ? twice : boxed;
     if (reuse->moved_texture.id)
         return NOOK_OK;
     ao_reuse_release(ao); /* of a try that failed */
@@ -98,8 +102,7 @@ static nook_result fit_lists(nook_ao *ao)
         return nook_fail(NOOK_E_MEMORY, "ao.reuse: no memory for %u occluders", ao->occluder_max);
     nook_result result = nook_buffer_create(ao->gpu, NULL, sizeof(reuse_block), &reuse->block);
     if (result == NOOK_OK)
-        result = nook_buffer_create(ao->gpu, NULL, moved_max * sizeof *reuse->moved + box_max * sizeof *reuse->boxes,
-                                    &reuse->moved_buffer);
+        result = nook_buffer_create(ao->gpu, NULL, most_bytes, &reuse->moved_buffer);
     if (result == NOOK_OK)
         result = nook_texture_create_buffer(ao->gpu, GL_RGBA32F, reuse->moved_buffer, &reuse->moved_texture);
     return result;
