@@ -117,19 +117,16 @@ static nook_result upload_medium(nook_game_world *world, const nook_scene_volume
         nook_log_warning("%s: a density is seen by the reference, and by volume with volume.kind=density; not as "
                          "techniques are set now",
                          medium->name);
-    nook_ao_written written = { .whole = false };
     double start = nook_clock_ms();
     nook_result result = nook_medium_bake(medium->medium, medium->resolution, 0, &densities);
     if (result != NOOK_OK)
         return result;
-    result = nook_ao_reserve_volume(world->ao, &volume->occluder.volume);
-    if (result == NOOK_OK && !nook_ao_place_volume(world->ao, volume->occluder.volume, &densities.info))
-        result = nook_fail(NOOK_E_MEMORY, "%s: no room for its densities", medium->name);
-    while (result == NOOK_OK && !written.whole)
-        result = nook_ao_write_volume(world->ao, volume->occluder.volume, &densities, SIZE_MAX, &written);
     bake.info = densities.info;
-    bake.ms = nook_clock_ms() - start;
+    result = nook_ao_reserve_volume(world->ao, &volume->occluder.volume);
+    if (result == NOOK_OK)
+        result = nook_ao_keep_volume(world->ao, volume->occluder.volume, &densities); /* no stream brings it again */
     nook_volume_free(&densities);
+    bake.ms = nook_clock_ms() - start;
     if (result != NOOK_OK)
         return result;
     describe_bake(&bake, volume);

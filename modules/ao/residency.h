@@ -24,8 +24,8 @@ typedef struct nook_ao_room {
 
 /**
  * Gives a kind a room that nothing streamed makes larger. Allocated at once; what was there before is copied as far as it fits, then freed: both are there
- * for a moment. Placed volumes that are not whole are dropped. What was added whole (nook_ao_add_volume, live volumes) comes first, and later ones
- * make the room grow.
+ * for a moment. Placed volumes that are not whole are dropped. What was added whole (nook_ao_add_volume, nook_ao_keep_volume, live volumes) comes
+ * first, and later ones make the room grow.
  * @return NOOK_E_RANGE it does not hold what was added whole, or the device has no such texture; NOOK_E_MEMORY: all is as it was
  */
 nook_result nook_ao_set_room(nook_ao *ao, nook_volume_kind kind, const nook_ao_room *room);
@@ -56,6 +56,14 @@ bool nook_ao_is_placed(const nook_ao *ao, nook_ao_volume volume, nook_volume_kin
 void nook_ao_drop_volume(nook_ao *ao, nook_ao_volume volume, nook_volume_kind kind);
 /** Whether it is there in a kind, whole. */
 bool nook_ao_has_volume(const nook_ao *ao, nook_ao_volume volume, nook_volume_kind kind);
+
+/**
+ * Adds contents that are decoded, whole and to stay, as nook_ao_extend_volume does those of a file: no room is too small for them.
+ * @param volume    reserved; not there and not placed in this kind
+ * @param contents  taken over; zero afterwards, also where this fails
+ * @return NOOK_E_MEMORY: also where it is larger than the device can hold
+ */
+nook_result nook_ao_keep_volume(nook_ao *ao, nook_ao_volume volume, nook_volume *contents);
 
 /** Bytes of GPU memory that a kind's volumes have, as of the next record. */
 uint64_t nook_ao_kind_bytes(const nook_ao *ao, nook_volume_kind kind);

@@ -1,6 +1,7 @@
 #include "engine/core/log.h"
 #include "modules/ao/ao_internal.h"
 #include "modules/ao/residency.h"
+#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -50,13 +51,13 @@ void ao_volume_id_give(nook_ao *ao, uint32_t id)
 
 /* ---- Contents --------------------------------------------------------------------------------------------------- */
 
-/** Gives the volume to those who keep its kind; it becomes zero. */
-static nook_result keep_volume(nook_ao *ao, uint32_t id, nook_volume *volume)
+nook_result nook_ao_keep_volume(nook_ao *ao, nook_ao_volume volume, nook_volume *contents)
 {
-    nook_volume_kind kind = volume->info.kind;
-    nook_result result = kind == NOOK_VOLUME_SURFEL ? brick_pool_add(&ao->pool, id, volume)
-                                                    : volume_atlas_add(&ao->atlases[kind], id, volume);
-    nook_volume_free(volume);
+    nook_volume_kind kind = contents->info.kind;
+    assert(ao_volume_id_is_known(ao, volume.id) && !nook_ao_has_volume(ao, volume, kind));
+    nook_result result = kind == NOOK_VOLUME_SURFEL ? brick_pool_add(&ao->pool, volume.id, contents)
+                                                    : volume_atlas_add(&ao->atlases[kind], volume.id, contents);
+    nook_volume_free(contents);
     return result;
 }
 
@@ -94,7 +95,7 @@ nook_result nook_ao_extend_volume(nook_ao *ao, nook_ao_volume volume, const char
         nook_volume_free(&added);
         return result;
     }
-    return keep_volume(ao, volume.id, &added);
+    return nook_ao_keep_volume(ao, volume, &added);
 }
 
 void nook_ao_remove_volume(nook_ao *ao, nook_ao_volume volume)

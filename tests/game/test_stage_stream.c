@@ -4,9 +4,11 @@
 #include "game/live/scene_reload.h"
 #include "game/stage.h"
 #include "game/stream_volumes.h"
+#include "modules/ao/residency.h"
 #include "tests/support/file_tree.h"
 #include "tests/support/log_capture.h"
 #include "tests/support/test_gpu.h"
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -23,6 +25,7 @@ typedef uint8_t picture[WIDTH * HEIGHT * 3];
 typedef struct fixture {
     file_tree tree;
     char path[1024], cache[1024];
+    const char *kind; /* of volumes; NULL: as it is at first */
     nook_stage stage;
     nook_camera camera;
     nook_log_capture log;
@@ -37,6 +40,8 @@ static void open_stage(fixture *self, double budget)
                                    .width = WIDTH,
                                    .height = HEIGHT };
     assert_int_equal(nook_stage_open(&desc, &self->stage), NOOK_OK);
+    if (self->kind)
+        assert_int_equal(nook_ao_parse_param(self->stage.ao, "volume.kind", self->kind), NOOK_OK);
     self->stage.stream_params = nook_stream_params_initial();
     self->stage.stream_params.budget = (float)budget;
     assert_int_equal(nook_stage_fill(&self->stage, &(nook_game_world_desc){ RESOLUTION, 0.5, self->cache }), NOOK_OK);
@@ -174,12 +179,79 @@ static void test_a_model_that_is_saved_is_exchanged_while_volumes_stream(void **
     assert_true(different * 50 < sizeof fresh);
 }
 
+enum { FIELD_SIDE = 12, FIELD_SAMPLES = FIELD_SIDE * FIELD_SIDE * FIELD_SIDE };
+
+/* A scalar field of 1.2 m, which the crate stands in. */
+static void add_field(fixture *self)
+{
+    static char text[256 + FIELD_SAMPLES];
+    int head = snprintf(text, 256, "NRRD0004\ntype: uchar\ndimension: 3\nsizes: %d %d %d\nencoding: raw\n\n",
+                        FIELD_SIDE, FIELD_SIDE, FIELD_SIDE);
+    memset(text + head, '@', FIELD_SAMPLES);
+    text[head + FIELD_SAMPLES] = '\0';
+    file_tree_write(&self->tree, "tests/game/data/field.nrrd", text);
+    file_tree_edit(&self->tree, "tests/game/data/crate.gltf", "    2\n   ]", "    2, 3\n   ]");
+    file_tree_edit(&self->tree, "tests/game/data/crate.gltf", "    0.945\n   ]\n  }",
+                   "    0.945\n   ]\n  },\n  { \"name\": \"field\", \"scale\": [ 0.1, 0.1, 0.1 ], \"extras\": {"
+                   " \"nook_density\": { \"file\": \"field.nrrd\", \"window\": [ 0, 128 ], \"length\": 10 } } }");
+}
+
+static bool field_is_there(const fixture *self)
+{
+    uint32_t count, i = 0;
+    const nook_world_volume *volumes = nook_game_world_volumes(self->stage.world, &count);
+    while (i < count && strcmp(volumes[i].name, "field") != 0)
+        i++;
+    assert_true(i < count);
+    return nook_ao_has_volume(self->stage.ao, volumes[i].occluder.volume, NOOK_VOLUME_DENSITY);
+}
+
+static void set_budget(fixture *self, double bytes)
+{
+    nook_stream_params params = *nook_stream_params_of(self->stage.stream);
+    params.budget = (float)(bytes / (1024.0 * 1024.0));
+    nook_stream_set_params(self->stage.stream, &params);
+}
+
+static void test_a_scalar_field_stays_whatever_the_budget_leaves_of_volumes(void **state)
+{
+    fixture *self = *state;
+    picture seen;
+    nook_scene_reload *reload;
+    nook_stream_status status;
+    add_field(self);
+    self->kind = "density";
+    open_stage(self, 64.0);
+    settle(self, seen);
+    nook_stream_get_status(self->stage.stream, &status);
+    uint64_t bytes = status.memory;
+    assert_true(field_is_there(self));
+    for (int part = 2; part <= 3; part++) {
+        set_budget(self, (double)bytes / part);
+        settle(self, seen);
+        for (int frame = 0; frame < 10; frame++)
+            draw(self, seen);
+        nook_stream_get_status(self->stage.stream, &status);
+        assert_false(status.failed);
+        assert_true(status.resident > 0 && status.memory <= bytes / (uint64_t)part);
+        assert_true(field_is_there(self));
+    }
+    assert_int_equal(nook_scene_reload_create(&self->stage, NULL, &reload), NOOK_OK);
+    file_tree_edit(&self->tree, "tests/game/data/crate.gltf", "    0.3,\n", "    -0.8,\n");
+    exchange(self, reload);
+    settle(self, seen);
+    assert_true(field_is_there(self));
+    nook_scene_reload_destroy(reload);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_a_streamed_scene_becomes_the_picture_of_one_that_is_not, setup, teardown),
         cmocka_unit_test_setup_teardown(test_a_scene_with_little_memory_shows_coarser_volumes, setup, teardown),
         cmocka_unit_test_setup_teardown(test_a_model_that_is_saved_is_exchanged_while_volumes_stream, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_a_scalar_field_stays_whatever_the_budget_leaves_of_volumes, setup,
+                                        teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
