@@ -1,5 +1,6 @@
 /* Scalar fields that nodes name: extras {"nook_density": {"file": "a.nrrd", "window": [low, high], "length": metres}}. */
 #include "engine/asset/gltf_internal.h"
+#include "engine/asset/nrrd_internal.h"
 #include "engine/asset/scalar_medium.h"
 #include "engine/asset/scene_internal.h"
 #include <stdio.h>
@@ -28,12 +29,28 @@ static nook_result read_transfer(const nook_gltf *gltf, const char *what, uint32
     return NOOK_OK;
 }
 
+/* A detached header's samples are the scene's, too. @return false: no memory */
+static bool list_files(nook_scene *scene, const nook_nrrd_files *files)
+{
+    bool listed = true;
+    for (size_t i = 0; i < files->count && listed; i++)
+        listed = nook_scene_add_file(scene, files->paths[i]);
+    return listed;
+}
+
 static nook_result load_medium(nook_gltf *gltf, const char *what, const char *path,
                                const nook_scalar_transfer *transfer, nook_medium *out)
 {
     char name[PATH_CAPACITY + WHAT_CAPACITY];
     nook_scalar_volume volume;
-    nook_result result = nook_scalar_volume_load(path, &volume);
+    nook_nrrd_files files;
+    nook_result result = nook_scalar_volume_load_files(path, &volume, &files);
+    bool listed = result != NOOK_OK || list_files(gltf->scene, &files);
+    nook_nrrd_files_free(&files);
+    if (!listed) {
+        nook_scalar_volume_free(&volume);
+        return NOOK_E_MEMORY;
+    }
     if (result != NOOK_OK)
         return result;
     snprintf(name, sizeof name, "%s: %s", gltf->path, what);

@@ -59,6 +59,12 @@ nook_result nook_nrrd_files_find(const char *path, const nook_nrrd_header *heade
 void nook_nrrd_files_free(nook_nrrd_files *files);
 
 /**
+ * nook_scalar_volume_load, and which data files it read besides `path`.
+ * @param out_files  none of an attached header; yours to free, also where this fails
+ */
+nook_result nook_scalar_volume_load_files(const char *path, nook_scalar_volume *out_volume, nook_nrrd_files *out_files);
+
+/**
  * Decodes what one data file stores, skips included, into exactly out_size bytes in this machine's byte order. Never reads or
  * makes more than it must: a stream that inflates to more is stopped there.
  * @param name    used in messages only

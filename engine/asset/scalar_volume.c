@@ -143,18 +143,15 @@ static uint64_t total_size(const nook_nrrd_files *files)
     return total;
 }
 
-/* *out_samples may be set on failure too; the caller frees it. */
+/* *out_samples and *out_files may be set on failure too; the caller frees them. */
 static nook_result read_detached(const char *path, const nook_nrrd_header *header, const nook_file *file,
-                                 uint8_t **out_samples)
+                                 uint8_t **out_samples, nook_nrrd_files *out_files)
 {
-    nook_nrrd_files files;
-    nook_result result = nook_nrrd_files_find(path, header, file->bytes, file->size, &files);
-    if (result != NOOK_OK)
-        return result;
-    result = allocate(path, header, total_size(&files), out_samples);
+    nook_result result = nook_nrrd_files_find(path, header, file->bytes, file->size, out_files);
     if (result == NOOK_OK)
-        result = decode_files(path, header, &files, *out_samples);
-    nook_nrrd_files_free(&files);
+        result = allocate(path, header, total_size(out_files), out_samples);
+    if (result == NOOK_OK)
+        result = decode_files(path, header, out_files, *out_samples);
     return result;
 }
 
@@ -169,7 +166,8 @@ static nook_result read_attached(const char *path, const nook_nrrd_header *heade
     return result;
 }
 
-static nook_result load_image(const char *path, const nook_file *file, nook_scalar_volume *out_volume)
+static nook_result load_image(const char *path, const nook_file *file, nook_scalar_volume *out_volume,
+                              nook_nrrd_files *out_files)
 {
     nook_nrrd_header header;
     nook_scalar_volume volume = { 0 };
@@ -179,8 +177,8 @@ static nook_result load_image(const char *path, const nook_file *file, nook_scal
     if (result != NOOK_OK)
         return result;
     uint8_t *samples = NULL;
-    result =
-        header.detached ? read_detached(path, &header, file, &samples) : read_attached(path, &header, file, &samples);
+    result = header.detached ? read_detached(path, &header, file, &samples, out_files)
+                             : read_attached(path, &header, file, &samples);
     if (result != NOOK_OK) {
         free(samples);
         return result;
@@ -191,14 +189,23 @@ static nook_result load_image(const char *path, const nook_file *file, nook_scal
     return NOOK_OK;
 }
 
-nook_result nook_scalar_volume_load(const char *path, nook_scalar_volume *out_volume)
+nook_result nook_scalar_volume_load_files(const char *path, nook_scalar_volume *out_volume, nook_nrrd_files *out_files)
 {
     nook_file file;
+    *out_files = (nook_nrrd_files){ 0 };
     nook_result result = nook_file_read(path, &file);
     if (result != NOOK_OK)
         return result;
-    result = load_image(path, &file, out_volume);
+    result = load_image(path, &file, out_volume, out_files);
     nook_file_free(&file);
+    return result;
+}
+
+nook_result nook_scalar_volume_load(const char *path, nook_scalar_volume *out_volume)
+{
+    nook_nrrd_files files;
+    nook_result result = nook_scalar_volume_load_files(path, out_volume, &files);
+    nook_nrrd_files_free(&files);
     return result;
 }
 

@@ -55,6 +55,23 @@ static void test_a_node_names_a_field_its_window_and_its_length(void **state)
     nook_scene_destroy(scene);
 }
 
+/* Files of a scene are watched: when one of them is saved it is read again. */
+static void test_the_samples_beside_a_detached_header_are_files_of_the_scene(void **state)
+{
+    static const char header[] = "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 3 2 2\nencoding: raw\n"
+                                 "data file: slice%d.raw 1 2 1 2\n";
+    (void)state;
+    test_bytes_write("cloud.nrrd", header, sizeof header - 1);
+    test_bytes_write("slice1.raw", "abcdef", 6);
+    test_bytes_write("slice2.raw", "ghijkl", 6);
+    nook_scene *scene = test_scene_must_load(test_gltf_write("density.gltf", SCENE(GOOD)));
+    assert_int_equal(scene->file_count, 4);
+    assert_non_null(strstr(scene->files[1], "cloud.nrrd"));
+    assert_non_null(strstr(scene->files[2], "slice1.raw"));
+    assert_non_null(strstr(scene->files[3], "slice2.raw"));
+    nook_scene_destroy(scene);
+}
+
 static void test_a_joined_scene_has_the_fields_of_its_parts(void **state)
 {
     (void)state;
@@ -118,6 +135,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_a_node_names_a_field_its_window_and_its_length),
+        cmocka_unit_test(test_the_samples_beside_a_detached_header_are_files_of_the_scene),
         cmocka_unit_test(test_a_joined_scene_has_the_fields_of_its_parts),
         cmocka_unit_test(test_what_a_density_does_not_say_right_is_refused_with_its_name),
         cmocka_unit_test(test_a_window_upside_down_is_refused),
