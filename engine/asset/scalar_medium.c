@@ -1,6 +1,7 @@
 #include "engine/asset/scalar_medium.h"
 #include "engine/core/log.h"
 #include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
 
 double nook_scalar_extinction(const nook_scalar_transfer *transfer, double sample)
@@ -50,8 +51,14 @@ nook_result nook_scalar_medium(const char *name, const nook_scalar_volume *volum
         return nook_fail(NOOK_E_MEMORY, "%s: no memory for %zu samples", name, volume->sample_count);
     if (volume->not_finite > 0)
         nook_log_warning("%s: %zu samples are not finite; they darken nothing", name, volume->not_finite);
-    for (size_t i = 0; i < volume->sample_count; i++)
+    bool any = false;
+    for (size_t i = 0; i < volume->sample_count; i++) {
         extinction[i] = (float)nook_scalar_extinction(transfer, nook_scalar_volume_sample(volume, i));
+        any = any || extinction[i] > 0.0f;
+    }
+    if (!any)
+        nook_log_warning("%s: no sample reaches into its window of %g to %g; it darkens nothing", name, transfer->low,
+                         transfer->high);
     *out_medium = (nook_medium){ .extinction = extinction };
     for (int axis = 0; axis < 3; axis++) {
         out_medium->size[axis] = volume->size[axis];

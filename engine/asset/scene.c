@@ -73,7 +73,8 @@ nook_result nook_scene_add_density(nook_scene *scene, const char *name, const no
                                    const nook_matrix *world_from_local)
 {
     if (scene->density_count == NOOK_SCENE_DENSITIES_MAX)
-        return nook_fail(NOOK_E_FORMAT, "%s: more than %d densities", scene->path, NOOK_SCENE_DENSITIES_MAX);
+        return nook_fail(NOOK_E_FORMAT, "%s: more than %d densities; join some in one file", scene->path,
+                         NOOK_SCENE_DENSITIES_MAX);
     uint64_t cells = nook_medium_cells(medium);
     for (uint32_t i = 0; i < scene->density_count; i++)
         cells += nook_medium_cells(&scene->densities[i].medium);

@@ -88,8 +88,11 @@ static void print_rows(const nook_scene_volume *v, const nook_bake *bakes, int c
 
 static void print_sum(const nook_scene_volumes *volumes, const bake_sum *sum)
 {
-    printf("%u volumes, %u occluders, %zu bytes, %.1f ms, r_max %.4g m\n", sum->volumes, volumes->occluder_count,
-           sum->bytes, sum->ms, volumes->r_max);
+    uint32_t occluders = 0; /* densities have a line of their own */
+    for (uint32_t i = 0; i < volumes->occluder_count; i++)
+        occluders += !volumes->volumes[volumes->occluders[i].volume].medium;
+    printf("%u volumes, %u occluders, %zu bytes, %.1f ms, r_max %.4g m\n", sum->volumes, occluders, sum->bytes, sum->ms,
+           volumes->r_max);
 }
 
 /* One level of each volume. */

@@ -42,8 +42,9 @@ static const char details[] =
     "ticks of 1/60 s, and the hash of the state. It plays to the end of the replay or the pilot, or 2 s beyond that "
     "of\n"
     "the game, whichever is first; with neither, to the level's time limit.\n"
-    "Levels: docs/playing.md. Pilots: game/play/pilot.h. volumes.budget = MIB in the settings bounds the memory that\n"
-    "volumes take: docs/streaming.md.\n";
+    "Levels: docs/playing.md. Pilots: game/play/pilot.h. volumes.budget = MIB, below technique = NAME in the "
+    "settings,\n"
+    "bounds the memory that volumes take: docs/streaming.md.\n";
 
 bool nook_play_request_read(const char *root, int argc, char **argv, nook_play_request *out, int *out_exit_code)
 {

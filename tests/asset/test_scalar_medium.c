@@ -81,6 +81,22 @@ static void test_samples_that_are_not_finite_take_nothing_and_are_said(void **st
     free((void *)(uintptr_t)medium.extinction);
 }
 
+static void test_a_window_that_no_sample_reaches_is_said(void **state)
+{
+    (void)state;
+    float samples[] = { 1.0f, 10.0f };
+    nook_scalar_volume v = volume_of(samples, 2);
+    nook_medium medium;
+    nook_log_capture log;
+    nook_log_capture_begin(&log);
+    assert_int_equal(nook_scalar_medium("test", &v, &window, &medium), NOOK_OK);
+    nook_log_capture_end();
+    assert_int_equal(log.count, 1);
+    assert_int_equal(log.errors, 0);
+    assert_non_null(strstr(log.text, "window of 10 to 20"));
+    free((void *)(uintptr_t)medium.extinction);
+}
+
 static void assert_refused(const nook_scalar_volume *v, const nook_scalar_transfer *transfer, nook_result code,
                            const char *word)
 {
@@ -172,6 +188,7 @@ int main(void)
         cmocka_unit_test(test_samples_outside_of_the_window_are_nothing_or_all_but_opaque),
         cmocka_unit_test(test_a_medium_has_the_cells_of_the_samples),
         cmocka_unit_test(test_samples_that_are_not_finite_take_nothing_and_are_said),
+        cmocka_unit_test(test_a_window_that_no_sample_reaches_is_said),
         cmocka_unit_test(test_windows_upside_down_flat_or_endless_are_refused),
         cmocka_unit_test(test_lengths_that_are_none_are_refused),
         cmocka_unit_test(test_vectors_and_sides_without_measure_are_refused),
