@@ -63,19 +63,27 @@ static void test_a_medium_has_the_cells_of_the_samples(void **state)
     free((void *)(uintptr_t)medium.extinction);
 }
 
+/* The medium that a volume becomes with one warning. */
+static nook_medium expect_warning(const nook_scalar_volume *v, const char *words)
+{
+    nook_medium medium;
+    nook_log_capture log;
+    nook_log_capture_begin(&log);
+    nook_result result = nook_scalar_medium("test", v, &window, &medium);
+    nook_log_capture_end();
+    assert_int_equal(result, NOOK_OK);
+    assert_int_equal(log.count, 1);
+    assert_int_equal(log.errors, 0);
+    assert_non_null(strstr(log.text, words));
+    return medium;
+}
+
 static void test_samples_that_are_not_finite_take_nothing_and_are_said(void **state)
 {
     (void)state;
     float samples[] = { NAN, 15.0f, INFINITY, -INFINITY };
     nook_scalar_volume v = volume_of(samples, 4);
-    nook_medium medium;
-    nook_log_capture log;
-    nook_log_capture_begin(&log);
-    assert_int_equal(nook_scalar_medium("test", &v, &window, &medium), NOOK_OK);
-    nook_log_capture_end();
-    assert_int_equal(log.count, 1);
-    assert_int_equal(log.errors, 0);
-    assert_non_null(strstr(log.text, "3 samples are not finite"));
+    nook_medium medium = expect_warning(&v, "3 samples are not finite");
     assert_true(medium.extinction[0] == 0.0f && medium.extinction[2] == 0.0f && medium.extinction[3] == 0.0f);
     assert_true(medium.extinction[1] > 0.0f);
     free((void *)(uintptr_t)medium.extinction);
@@ -86,14 +94,7 @@ static void test_a_window_that_no_sample_reaches_is_said(void **state)
     (void)state;
     float samples[] = { 1.0f, 10.0f };
     nook_scalar_volume v = volume_of(samples, 2);
-    nook_medium medium;
-    nook_log_capture log;
-    nook_log_capture_begin(&log);
-    assert_int_equal(nook_scalar_medium("test", &v, &window, &medium), NOOK_OK);
-    nook_log_capture_end();
-    assert_int_equal(log.count, 1);
-    assert_int_equal(log.errors, 0);
-    assert_non_null(strstr(log.text, "window of 10 to 20"));
+    nook_medium medium = expect_warning(&v, "window of 10 to 20");
     free((void *)(uintptr_t)medium.extinction);
 }
 
