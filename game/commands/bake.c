@@ -225,7 +225,7 @@ static bool read_request(const nook_app *app, int argc, char **argv, bake_reques
         { .name = "resolution",
           .kind = NOOK_OPTION_CUSTOM,
           .target = &out->levels,
-          .placeholder = "N[,N]",
+          .placeholder = "N[,N...]",
           .help = help.resolution,
           .read = read_levels,
           .expects = help.expects },

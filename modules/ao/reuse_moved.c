@@ -1,6 +1,7 @@
 /* Which occluders are not as they were, and the boxes in which they lay meanwhile: docs/techniques.md, Reuse. */
 #include "modules/ao/ao_internal.h"
 #include "modules/ao/reuse_internal.h"
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -52,14 +53,20 @@ static const ao_marched *marched_at(ao_reuse *reuse, uint32_t ago, uint32_t plac
     return place < list->count ? &list->items[place] : NULL;
 }
 
+/** @param marched  NULL is allowed @return false: it is in no picture, as floats cannot hold it; *out is undefined then */
+static bool compose(const nook_matrix *view_from_world, const ao_marched *marched, ao_gpu_occluder *out)
+{
+    if (!marched)
+        return false;
+    nook_matrix view_from_mesh = nook_matrix_multiply(view_from_world, &marched->world_from_mesh);
+    return ao_compose(&marched->info, &view_from_mesh, out);
+}
+
 /* ---- Whatever is near them --------------------------------------------------------------------------------------- */
 
 static void add_whole(ao_reuse *reuse, const nook_matrix *view_from_world, const ao_marched *marched)
 {
-    if (!marched)
-        return;
-    nook_matrix view_from_mesh = nook_matrix_multiply(view_from_world, &marched->world_from_mesh);
-    if (ao_compose(&marched->info, &view_from_mesh, &reuse->moved[reuse->moved_count]))
+    if (compose(view_from_world, marched, &reuse->moved[reuse->moved_count]))
         reuse->moved_count++;
 }
 
@@ -103,22 +110,20 @@ static void set_box(const ao_box *box, bool moved, ao_moved_box *out)
 static void add_boxes(ao_reuse *reuse, const nook_matrix *view_from_world, uint32_t place, uint32_t still,
                       uint32_t period)
 {
-    ao_gpu_occluder *moved = &reuse->moved[reuse->moved_count];
+    ao_gpu_occluder *moved = &reuse->moved[reuse->moved_count], unused;
     ao_moved_box *boxes = &reuse->boxes[reuse->moved_count * (period - 1)];
     ao_box box = { { INFINITY, INFINITY, INFINITY }, { -INFINITY, -INFINITY, -INFINITY } };
     nook_matrix voxel_from_world, last_from_voxel = nook_matrix_identity();
     bool found = false;
     for (uint32_t ago = 0; ago < period; ago++) {
         const ao_marched *marched = ago <= reuse->run ? marched_at(reuse, ago, place) : NULL;
-        if (marched) {
+        if (compose(view_from_world, marched, found ? &unused : moved)) {
             nook_matrix from_voxel = world_from_voxel(marched);
-            nook_matrix view_from_mesh = nook_matrix_multiply(view_from_world, &marched->world_from_mesh);
-            if (!found && ao_compose(&marched->info, &view_from_mesh, moved) &&
-                nook_matrix_inverse_affine(&from_voxel, &voxel_from_world)) {
+            if (!found && nook_matrix_inverse_affine(&from_voxel, &voxel_from_world)) {
                 last_from_voxel = from_voxel;
                 found = true;
             }
-            if (found) { /* else it could not be marched */
+            if (found) {
                 nook_matrix last_from_then = nook_matrix_multiply(&voxel_from_world, &from_voxel);
                 include(&box, &last_from_then, &marched->info);
             }
@@ -149,6 +154,7 @@ void ao_collect_moved(nook_ao *ao, const nook_matrix *view_from_world, bool comp
     ao_reuse *reuse = &ao->reuse;
     const uint32_t period = (uint32_t)ao->shared.reuse;
     const bool bounded = ao->shared.reuse_error > 0.0f;
+    assert(period <= AO_REUSE_MOST);
     remember(ao, list_of(reuse, 0));
     reuse->moved_count = 0;
     reuse->run = compare ? reuse->run + 1 : 0;

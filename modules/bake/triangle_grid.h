@@ -41,7 +41,7 @@ bool nook_grid_snap(const nook_grid_frame *frame, const nook_triangles *triangle
 
 /** The grid whose voxels are 2^level of this one's a side; its first ones begin with this one's. */
 nook_grid_frame nook_grid_level(const nook_grid_frame *frame, uint32_t level);
-/** The layer of that grid in which a layer of this one lies; the border's is the border's. */
+/** The layer of that grid in which a layer in [0, inner] of this one lies; that of the border, 0, is its border. */
 int32_t nook_grid_level_layer(int32_t layer, uint32_t level);
 
 /** The layer in [1, inner] in which a depth in steps lies. */

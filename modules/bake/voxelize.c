@@ -202,25 +202,30 @@ static nook_result make_levels(const nook_triangles *triangles, const nook_voxel
     return result;
 }
 
+/* @param frame  of level 0 */
+static nook_result make(const nook_triangles *triangles, const nook_voxelize_desc *desc, const nook_grid_frame *frame,
+                        nook_volume *out_volume)
+{
+    nook_volume volume, volumes[NOOK_VOXELIZE_LEVELS];
+    if (desc->level > 0) {
+        nook_result made = make_levels(triangles, desc, frame, 1u << desc->level, volumes);
+        if (made == NOOK_OK)
+            *out_volume = volumes[desc->level];
+        return made;
+    }
+    nook_result result = make_kind(triangles, desc, frame, &volume);
+    if (result != NOOK_OK)
+        return result;
+    volume.info = describe(triangles, desc, frame, volume.info.occupied);
+    *out_volume = volume;
+    return NOOK_OK;
+}
+
 nook_result nook_voxelize(const nook_triangles *triangles, const nook_voxelize_desc *desc, nook_volume *out_volume)
 {
     nook_grid_frame frame;
-    nook_volume volume;
     nook_result result = nook_grid_place(triangles, desc, &frame);
-    if (result == NOOK_OK && desc->level > 0) {
-        nook_volume volumes[NOOK_VOXELIZE_LEVELS];
-        result = make_levels(triangles, desc, &frame, 1u << desc->level, volumes);
-        if (result == NOOK_OK)
-            *out_volume = volumes[desc->level];
-        return result;
-    }
-    if (result == NOOK_OK)
-        result = make_kind(triangles, desc, &frame, &volume);
-    if (result != NOOK_OK)
-        return result;
-    volume.info = describe(triangles, desc, &frame, volume.info.occupied);
-    *out_volume = volume;
-    return NOOK_OK;
+    return result == NOOK_OK ? make(triangles, desc, &frame, out_volume) : result;
 }
 
 /* ---- Levels ----------------------------------------------------------------------------------------------------- */
@@ -299,7 +304,7 @@ nook_result nook_voxelize_again(const nook_triangles *triangles, const nook_voxe
         if (result == NOOK_OK)
             volume.info = describe(triangles, desc, &frame, volume.info.occupied);
     } else {
-        result = nook_voxelize(triangles, desc, &volume);
+        result = make(triangles, desc, &frame, &volume); /* not nook_voxelize, which would warn once more */
         bricks = nook_brick_total(&before->volume->info);
     }
     if (result != NOOK_OK)

@@ -156,7 +156,8 @@ static nook_result add_mesh(nook_tracer *t, const nook_ao_mesh_view *mesh)
     if (!scene) {
         nook_ray_filter_destroy(filter);
         nook_ray_medium_destroy(medium);
-        return nook_fail(NOOK_E_MEMORY, "ray tracer: no memory for %u triangles", mesh->index_count / 3);
+        return mesh->medium ? nook_fail(NOOK_E_MEMORY, "ray tracer: no memory for a medium")
+                            : nook_fail(NOOK_E_MEMORY, "ray tracer: no memory for %u triangles", mesh->index_count / 3);
     }
     t->meshes[t->mesh_count++] = (traced_mesh){ mesh->id, scene, filter, medium };
     return check_device(t);

@@ -77,6 +77,14 @@ static void one_jumps(nook_fixture_view *view, int frame)
     place(view, 0, frame % 3 - 1.0, -1.0 - 0.5 * (frame % 2), 0.8, 0.0);
 }
 
+/* From where doubles reach and floats do not, and back. */
+static void one_comes_from_beyond(nook_fixture_view *view, int frame)
+{
+    one_walks(view, frame);
+    if (frame % 4 < 2)
+        place(view, 0, 1e308, 0.0, 0.0, 0.0);
+}
+
 /* Its place in the list stays another's or nobody's. */
 static void some_come_and_go(nook_fixture_view *view, int frame)
 {
@@ -175,10 +183,9 @@ static void test_whatever_is_marched_is_bounded(void **state)
 }
 
 /* Contacts: where a body takes more than the error, the value is that of a frame without reuse, bit for bit. */
-static void test_what_a_body_that_moves_darkens_has_no_lag(void **state)
+static void expect_no_lag(nook_fixture_view *view, motion move)
 {
     const double error = 0.05;
-    nook_fixture_view *view = *state;
     double alone[PIXELS];
     uint32_t dark = 0;
     one_walks(view, 0);
@@ -187,8 +194,8 @@ static void test_what_a_body_that_moves_darkens_has_no_lag(void **state)
     ao_view_record(view, "volume");
     for (size_t i = 0; i < PIXELS; i++)
         alone[i] = (double)view->visibility[i];
-    (void)play(view, one_walks, 1, 0.0, 0);
-    (void)play(view, one_walks, 4, error, 1);
+    (void)play(view, move, 1, 0.0, 0);
+    (void)play(view, move, 4, error, 1);
     for (int frame = 1; frame < FRAMES; frame++) {
         for (size_t i = 0; i < PIXELS; i++) {
             if (alone[i] - visibilities[0][frame][i] <= error + RAYS_OFF)
@@ -200,6 +207,16 @@ static void test_what_a_body_that_moves_darkens_has_no_lag(void **state)
         }
     }
     assert_true(dark > 100);
+}
+
+static void test_what_a_body_that_moves_darkens_has_no_lag(void **state)
+{
+    expect_no_lag(*state, one_walks);
+}
+
+static void test_what_a_body_darkens_that_floats_could_not_hold_has_no_lag(void **state)
+{
+    expect_no_lag(*state, one_comes_from_beyond);
 }
 
 static void test_an_error_that_is_none_is_refused(void **state)
@@ -227,6 +244,7 @@ int main(void)
         cmocka_unit_test(test_many_small_motions_do_not_add_up),
         cmocka_unit_test(test_whatever_is_marched_is_bounded),
         cmocka_unit_test(test_what_a_body_that_moves_darkens_has_no_lag),
+        cmocka_unit_test(test_what_a_body_darkens_that_floats_could_not_hold_has_no_lag),
         cmocka_unit_test(test_an_error_that_is_none_is_refused),
     };
     return cmocka_run_group_tests(tests, setup, ao_view_teardown);

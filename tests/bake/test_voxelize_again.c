@@ -228,6 +228,31 @@ static void test_a_volume_of_something_else_is_refused(void **state)
     free(other);
 }
 
+/* Of all kinds, also those of which nothing stays. */
+static void test_triangles_that_are_left_out_are_counted_in_one_warning(void **state)
+{
+    (void)state;
+    hills *h = make_hills();
+    h->points[POINTS / 2][2] = NAN;
+    const nook_triangles triangles = triangles_of(h);
+    for (int kind = 0; kind < NOOK_VOLUME_KINDS; kind++) {
+        nook_volume old, again;
+        nook_log_capture log;
+        nook_voxelize_desc desc = desc_of(h, 1);
+        desc.kind = (nook_volume_kind)kind;
+        nook_log_capture_begin(&log);
+        assert_int_equal(nook_voxelize(&triangles, &desc, &old), NOOK_OK);
+        assert_int_equal(log.count, 1);
+        const nook_voxelize_before older = { &triangles, &h->alphas, &old };
+        assert_int_equal(nook_voxelize_again(&triangles, &desc, &older, &again, NULL), NOOK_OK);
+        nook_log_capture_end();
+        assert_int_equal(log.count, 2);
+        nook_volume_free(&old);
+        nook_volume_free(&again);
+    }
+    free(h);
+}
+
 /* ---- Through the cache ------------------------------------------------------------------------------------------- */
 
 static nook_bake bake(const char *folder, const hills *h, const hills *before)
@@ -304,6 +329,7 @@ int main(void)
         cmocka_unit_test(test_another_texture_changes_what_it_lies_on),
         cmocka_unit_test(test_another_box_makes_all),
         cmocka_unit_test(test_a_volume_of_something_else_is_refused),
+        cmocka_unit_test(test_triangles_that_are_left_out_are_counted_in_one_warning),
         cmocka_unit_test(test_the_cache_makes_an_edited_mesh_of_what_it_holds),
         cmocka_unit_test(test_memory_changes_no_bit),
     };
