@@ -1,5 +1,5 @@
 #include "game/command.h"
-#include "game/suggestion.h"
+#include "engine/core/suggestion.h"
 #include <stdio.h>
 #include <string.h>
 

@@ -2,7 +2,7 @@
 #include "engine/animation/scene_pose.h"
 #include "engine/animation/scene_stand.h"
 #include "engine/core/log.h"
-#include "game/suggestion.h"
+#include "engine/core/suggestion.h"
 
 static nook_result refuse(const nook_scene *scene, const char *clip)
 {

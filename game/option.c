@@ -1,6 +1,6 @@
 #include "game/option.h"
+#include "engine/core/suggestion.h"
 #include "game/option_text.h"
-#include "game/suggestion.h"
 #include <assert.h>
 #include <stdarg.h>
 #include <string.h>

@@ -93,5 +93,3 @@ bool nook_arguments_read(const nook_usage *usage, int argc, char **argv, nook_ar
 bool nook_text_to_number(const char *text, double *out);
 /** Reads a whole text as a whole decimal number that fits int32_t. @return false on anything else */
 bool nook_text_to_int(const char *text, int32_t *out);
-/** Letters to insert, delete or replace to make `a` from `b`; 1000 when either is over 31 bytes. For suggestions. */
-int nook_text_distance(const char *a, const char *b);

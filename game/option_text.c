@@ -30,28 +30,6 @@ bool nook_text_to_int(const char *text, int32_t *out)
     return true;
 }
 
-int nook_text_distance(const char *a, const char *b)
-{
-    enum { LONGEST = 31 };
-    size_t length_a = strlen(a), length_b = strlen(b);
-    if (length_a > LONGEST || length_b > LONGEST)
-        return 1000;
-    int row[LONGEST + 1]; /* row[j]: distance between the first i letters of a and the first j of b */
-    for (size_t j = 0; j <= length_b; j++)
-        row[j] = (int)j;
-    for (size_t i = 1; i <= length_a; i++) {
-        int diagonal = row[0];
-        row[0] = (int)i;
-        for (size_t j = 1; j <= length_b; j++) {
-            int replaced = diagonal + (a[i - 1] != b[j - 1]);
-            int shorter = (row[j] < row[j - 1] ? row[j] : row[j - 1]) + 1;
-            diagonal = row[j];
-            row[j] = replaced < shorter ? replaced : shorter;
-        }
-    }
-    return row[length_b];
-}
-
 static bool is_bounded(const nook_option *option)
 {
     return option->lowest != 0.0 || option->highest != 0.0;

@@ -1,6 +1,6 @@
 #include "game/techniques.h"
 #include "engine/core/log.h"
-#include "game/suggestion.h"
+#include "engine/core/suggestion.h"
 #include "game/technique_list.h"
 #include "modules/ao/nook_ao.h"
 #include <assert.h>

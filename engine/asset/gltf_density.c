@@ -3,6 +3,7 @@
 #include "engine/asset/nrrd_internal.h"
 #include "engine/asset/scalar_medium.h"
 #include "engine/asset/scene_internal.h"
+#include "engine/core/suggestion.h"
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -11,6 +12,25 @@ enum { PATH_CAPACITY = 4096, WHAT_CAPACITY = 64 };
 static bool is_kind(const nook_gltf *gltf, uint32_t value, nook_json_kind kind)
 {
     return value != NOOK_JSON_NONE && gltf->json.values[value].kind == kind;
+}
+
+/* What is misspelt does nothing; what is left out because of it is refused elsewhere, and does not say why. */
+static void warn_of_unknown_keys(const nook_gltf *gltf, const char *what, uint32_t object)
+{
+    static const char *const known[] = { "file", "window", "length" };
+    const nook_json_tree *json = &gltf->json;
+    uint32_t key = object + 1;
+    for (uint32_t i = 0; i < json->values[object].count; i++, key = json->values[key + 1].next) {
+        char *given = nook_json_tree_copy_string(json, key, NULL);
+        nook_suggestion suggestion = nook_suggestion_for(given ? given : "");
+        for (size_t name = 0; name < sizeof known / sizeof *known; name++)
+            nook_suggestion_offer(&suggestion, known[name]);
+        if (given && suggestion.distance > 0)
+            nook_scene_warn(gltf->scene, "%s: %s.%.60s is not known and does nothing; %s%s%s", gltf->path, what, given,
+                            suggestion.nearest ? "did you mean '" : "file, window and length are",
+                            suggestion.nearest ? suggestion.nearest : "", suggestion.nearest ? "'?" : "");
+        free(given);
+    }
 }
 
 static nook_result read_transfer(const nook_gltf *gltf, const char *what, uint32_t object, nook_scalar_transfer *out)
@@ -42,9 +62,11 @@ static nook_result load_medium(nook_gltf *gltf, const char *what, const char *pa
                                const nook_scalar_transfer *transfer, nook_medium *out)
 {
     char name[PATH_CAPACITY + WHAT_CAPACITY];
+    const nook_nrrd_owner owner = { name, gltf->scene };
     nook_scalar_volume volume;
     nook_nrrd_files files;
-    nook_result result = nook_scalar_volume_load_files(path, &volume, &files);
+    snprintf(name, sizeof name, "%s: %s", gltf->path, what);
+    nook_result result = nook_scalar_volume_load_files(path, &owner, &volume, &files);
     bool listed = result != NOOK_OK || list_files(gltf->scene, &files);
     nook_nrrd_files_free(&files);
     if (!listed) {
@@ -53,8 +75,7 @@ static nook_result load_medium(nook_gltf *gltf, const char *what, const char *pa
     }
     if (result != NOOK_OK)
         return result;
-    snprintf(name, sizeof name, "%s: %s", gltf->path, what);
-    result = nook_scalar_medium(name, &volume, transfer, out);
+    result = nook_scalar_medium(name, &volume, transfer, gltf->scene, out);
     nook_scalar_volume_free(&volume);
     return result;
 }
@@ -67,6 +88,7 @@ static nook_result add_density(nook_gltf *gltf, const char *what, uint32_t objec
     nook_medium medium;
     nook_matrix unused;
     uint32_t file = nook_json_tree_find(&gltf->json, object, "file");
+    warn_of_unknown_keys(gltf, what, object);
     if (!is_kind(gltf, file, NOOK_JSON_STRING))
         return nook_fail(NOOK_E_FORMAT, "%s: %s.file: give the name of a .nrrd or .nhdr file", gltf->path, what);
     nook_result result = read_transfer(gltf, what, object, &transfer);

@@ -1,4 +1,5 @@
 #include "engine/asset/nrrd_internal.h"
+#include "engine/asset/scene_internal.h"
 #include "engine/core/log.h"
 #include <bzlib.h>
 #include <ctype.h>
@@ -20,15 +21,15 @@ static nook_result fail_short(const char *name, size_t got, size_t wanted)
     return nook_fail(NOOK_E_FORMAT, "%s: cut short: %zu of %zu bytes of samples", name, got, wanted);
 }
 
-static void warn_of_rest(const char *name)
+static void warn_of_rest(const char *name, nook_scene *scene)
 {
-    nook_log_warning("%s: the data behind the last sample are left out", name);
+    nook_scene_warn(scene, "%s: the data behind the last sample are left out", name);
 }
 
 /* ---- raw -------------------------------------------------------------------------------------------------------- */
 
-static nook_result decode_raw(const char *name, int64_t byte_skip, const uint8_t *stored, size_t stored_size,
-                              uint8_t *out, size_t out_size)
+static nook_result decode_raw(const char *name, nook_scene *scene, int64_t byte_skip, const uint8_t *stored,
+                              size_t stored_size, uint8_t *out, size_t out_size)
 {
     if (stored_size < out_size)
         return fail_short(name, stored_size, out_size);
@@ -38,7 +39,7 @@ static nook_result decode_raw(const char *name, int64_t byte_skip, const uint8_t
                          (long long)byte_skip);
     size_t skip = byte_skip < 0 ? spare : (size_t)byte_skip;
     if (spare > skip)
-        warn_of_rest(name);
+        warn_of_rest(name, scene);
     memcpy(out, stored + skip, out_size);
     return NOOK_OK;
 }
@@ -189,8 +190,8 @@ static bool fill(flow_step step, void *stream, flow *f, uint8_t *out, size_t siz
     return f->out_left == 0;
 }
 
-static nook_result decode_stream(const char *name, flow_step step, void *stream, int64_t byte_skip, flow f,
-                                 uint8_t *out, size_t out_size)
+static nook_result decode_stream(const char *name, nook_scene *scene, flow_step step, void *stream, int64_t byte_skip,
+                                 flow f, uint8_t *out, size_t out_size)
 {
     uint8_t scrap[4096];
     flow_state state = FLOW_GOES_ON;
@@ -208,28 +209,30 @@ static nook_result decode_stream(const char *name, flow_step step, void *stream,
     }
     /* The checksum comes behind the last sample, or there is a sample too many; nothing beyond that is inflated. */
     if (fill(step, stream, &f, scrap, 1, &state))
-        warn_of_rest(name);
+        warn_of_rest(name, scene);
     else if (state == FLOW_BROKEN)
         return nook_fail(NOOK_E_FORMAT, "%s: its compressed data are damaged at the end", name);
     return NOOK_OK;
 }
 
-static nook_result decode_gzip(const char *name, int64_t byte_skip, flow f, uint8_t *out, size_t out_size)
+static nook_result decode_gzip(const char *name, nook_scene *scene, int64_t byte_skip, flow f, uint8_t *out,
+                               size_t out_size)
 {
     z_stream stream = { 0 };
     if (inflateInit2(&stream, 15 + 32) != Z_OK) /* 15: the largest window; 32: gzip or zlib header */
         return nook_fail(NOOK_E_MEMORY, "%s: no memory to inflate", name);
-    nook_result result = decode_stream(name, step_gzip, &stream, byte_skip, f, out, out_size);
+    nook_result result = decode_stream(name, scene, step_gzip, &stream, byte_skip, f, out, out_size);
     inflateEnd(&stream);
     return result;
 }
 
-static nook_result decode_bzip2(const char *name, int64_t byte_skip, flow f, uint8_t *out, size_t out_size)
+static nook_result decode_bzip2(const char *name, nook_scene *scene, int64_t byte_skip, flow f, uint8_t *out,
+                                size_t out_size)
 {
     bz_stream stream = { 0 };
     if (BZ2_bzDecompressInit(&stream, 0, 0) != BZ_OK)
         return nook_fail(NOOK_E_MEMORY, "%s: no memory to decompress", name);
-    nook_result result = decode_stream(name, step_bzip2, &stream, byte_skip, f, out, out_size);
+    nook_result result = decode_stream(name, scene, step_bzip2, &stream, byte_skip, f, out, out_size);
     BZ2_bzDecompressEnd(&stream);
     return result;
 }
@@ -246,16 +249,16 @@ static void swap_bytes(uint8_t *samples, size_t size, size_t sample_size)
         }
 }
 
-static nook_result decode(const char *name, const nook_nrrd_header *header, const uint8_t *stored, size_t stored_size,
-                          uint8_t *out, size_t out_size)
+static nook_result decode(const char *name, nook_scene *scene, const nook_nrrd_header *header, const uint8_t *stored,
+                          size_t stored_size, uint8_t *out, size_t out_size)
 {
     bool compressed = header->encoding == NOOK_NRRD_GZIP || header->encoding == NOOK_NRRD_BZIP2;
     flow f = { .in = stored, .in_left = stored_size };
     if (compressed) /* its byte skip counts decompressed bytes */
-        return header->encoding == NOOK_NRRD_GZIP ? decode_gzip(name, header->byte_skip, f, out, out_size)
-                                                  : decode_bzip2(name, header->byte_skip, f, out, out_size);
+        return header->encoding == NOOK_NRRD_GZIP ? decode_gzip(name, scene, header->byte_skip, f, out, out_size)
+                                                  : decode_bzip2(name, scene, header->byte_skip, f, out, out_size);
     if (header->encoding == NOOK_NRRD_RAW)
-        return decode_raw(name, header->byte_skip, stored, stored_size, out, out_size);
+        return decode_raw(name, scene, header->byte_skip, stored, stored_size, out, out_size);
     if ((uint64_t)header->byte_skip > stored_size)
         return nook_fail(NOOK_E_FORMAT, "%s: byte skip %lld goes past the end", name, (long long)header->byte_skip);
     stored += header->byte_skip;
@@ -264,7 +267,7 @@ static nook_result decode(const char *name, const nook_nrrd_header *header, cons
                                              : decode_text(name, header->type, stored, out, out_size);
 }
 
-nook_result nook_nrrd_decode(const char *name, const nook_nrrd_header *header, const uint8_t *stored,
+nook_result nook_nrrd_decode(const char *name, nook_scene *scene, const nook_nrrd_header *header, const uint8_t *stored,
                              size_t stored_size, uint8_t *out, size_t out_size)
 {
     const uint8_t *end = stored + stored_size;
@@ -274,7 +277,7 @@ nook_result nook_nrrd_decode(const char *name, const nook_nrrd_header *header, c
             return nook_fail(NOOK_E_FORMAT, "%s: line skip %lld goes past the end", name, (long long)header->line_skip);
         stored = newline + 1;
     }
-    nook_result result = decode(name, header, stored, (size_t)(end - stored), out, out_size);
+    nook_result result = decode(name, scene, header, stored, (size_t)(end - stored), out, out_size);
     if (result == NOOK_OK && header->swapped)
         swap_bytes(out, out_size, nook_sample_type_size(header->type));
     return result;

@@ -21,43 +21,50 @@ static bool safe_name(const char *name)
     return true;
 }
 
-static nook_result add_path(const char *header_path, const char *path, nook_nrrd_files *files)
+/* What is being looked for. */
+typedef struct search {
+    const char *name;        /* of the header, in messages */
+    const char *header_path; /* its folder is where data files are */
+    nook_nrrd_files files;   /* found so far */
+} search;
+
+static nook_result add_path(search *s, const char *path)
 {
-    if (files->count == DATA_FILES_MAX)
-        return nook_fail(NOOK_E_FORMAT, "%s: more than %d data files", header_path, DATA_FILES_MAX);
-    if ((files->count & (files->count - 1)) == 0) { /* full at each power of two */
-        char **grown = realloc(files->paths, (files->count ? files->count * 2 : 1) * sizeof *grown);
+    if (s->files.count == DATA_FILES_MAX)
+        return nook_fail(NOOK_E_FORMAT, "%s: more than %d data files", s->name, DATA_FILES_MAX);
+    if ((s->files.count & (s->files.count - 1)) == 0) { /* full at each power of two */
+        char **grown = realloc(s->files.paths, (s->files.count ? s->files.count * 2 : 1) * sizeof *grown);
         if (!grown)
-            return nook_fail(NOOK_E_MEMORY, "%s: no memory for the names of its data files", header_path);
-        files->paths = grown;
+            return nook_fail(NOOK_E_MEMORY, "%s: no memory for the names of its data files", s->name);
+        s->files.paths = grown;
     }
     size_t size = strlen(path) + 1;
     char *copy = malloc(size);
     if (!copy)
-        return nook_fail(NOOK_E_MEMORY, "%s: no memory for the names of its data files", header_path);
+        return nook_fail(NOOK_E_MEMORY, "%s: no memory for the names of its data files", s->name);
     memcpy(copy, path, size);
-    files->paths[files->count++] = copy;
+    s->files.paths[s->files.count++] = copy;
     return NOOK_OK;
 }
 
-static nook_result add_name(const char *header_path, const char *name, nook_nrrd_files *files)
+static nook_result add_name(search *s, const char *name)
 {
     char path[PATH_CAPACITY];
     if (!safe_name(name))
         return nook_fail(NOOK_E_FORMAT, "%s: data file '%s' is refused: only files below the header's folder are read",
-                         header_path, name);
-    int folder_length = (int)(nook_path_name(header_path) - header_path);
-    int length = snprintf(path, sizeof path, "%.*s%s", folder_length, header_path, name);
+                         s->name, name);
+    int folder_length = (int)(nook_path_name(s->header_path) - s->header_path);
+    int length = snprintf(path, sizeof path, "%.*s%s", folder_length, s->header_path, name);
     if (length < 0 || (size_t)length >= sizeof path)
-        return nook_fail(NOOK_E_FORMAT, "%s: the path of its data file is too long", header_path);
+        return nook_fail(NOOK_E_FORMAT, "%s: the path of its data file is too long", s->name);
     if (!nook_file_exists(path))
-        return nook_fail(NOOK_E_NOT_FOUND, "%s: its data file '%s' does not exist or is not a regular file",
-                         header_path, name);
-    return add_path(header_path, path, files);
+        return nook_fail(NOOK_E_NOT_FOUND, "%s: its data file '%s' does not exist or is not a regular file", s->name,
+                         name);
+    return add_path(s, path);
 }
 
 /* "LIST": the names stand in the lines behind the header. */
-static nook_result add_listed(const char *path, const char *at, const char *end, nook_nrrd_files *files)
+static nook_result add_listed(search *s, const char *at, const char *end)
 {
     const char *line;
     size_t length;
@@ -66,12 +73,12 @@ static nook_result add_listed(const char *path, const char *at, const char *end,
         if (length == 0)
             continue;
         if (!nook_nrrd_copy_trimmed(line, length, name, sizeof name))
-            return nook_fail(NOOK_E_FORMAT, "%s: the name of a data file is too long", path);
-        nook_result result = add_name(path, name, files);
+            return nook_fail(NOOK_E_FORMAT, "%s: the name of a data file is too long", s->name);
+        nook_result result = add_name(s, name);
         if (result != NOOK_OK)
             return result;
     }
-    return files->count > 0 ? NOOK_OK : nook_fail(NOOK_E_FORMAT, "%s: its list of data files is empty", path);
+    return s->files.count > 0 ? NOOK_OK : nook_fail(NOOK_E_FORMAT, "%s: its list of data files is empty", s->name);
 }
 
 /* "name%03d.raw first last step [dimension]" */
@@ -104,38 +111,38 @@ static bool read_pattern(const char *text, pattern *out)
 }
 
 /* The pattern is taken apart and never given to printf as it stands. */
-static nook_result add_numbered(const char *path, const char *text, nook_nrrd_files *files)
+static nook_result add_numbered(search *s, const char *text)
 {
     pattern p;
     if (!read_pattern(text, &p))
-        return nook_fail(NOOK_E_FORMAT, "%s: data file '%s': not a pattern with one %%d and first, last, step", path,
+        return nook_fail(NOOK_E_FORMAT, "%s: data file '%s': not a pattern with one %%d and first, last, step", s->name,
                          text);
     for (int64_t i = p.first; i <= p.last; i += p.step) {
         char name[NOOK_NRRD_VALUE_CAPACITY + 128], number[128];
         snprintf(number, sizeof number, p.zeros ? "%0*d" : "%*d", p.width, (int)i);
         snprintf(name, sizeof name, "%.*s%s%.*s", p.prefix_length, text, number, p.suffix_length, p.suffix);
-        nook_result result = add_name(path, name, files);
+        nook_result result = add_name(s, name);
         if (result != NOOK_OK)
             return result;
     }
     return NOOK_OK;
 }
 
-nook_result nook_nrrd_files_find(const char *path, const nook_nrrd_header *header, const uint8_t *bytes, size_t size,
-                                 nook_nrrd_files *out_files)
+nook_result nook_nrrd_files_find(const char *name, const char *path, const nook_nrrd_header *header,
+                                 const uint8_t *bytes, size_t size, nook_nrrd_files *out_files)
 {
-    nook_nrrd_files files = { 0 };
+    search s = { .name = name, .header_path = path };
     nook_result result;
     if (strncmp(header->data_file, "LIST", 4) == 0)
-        result = add_listed(path, (const char *)bytes + header->rest, (const char *)bytes + size, &files);
+        result = add_listed(&s, (const char *)bytes + header->rest, (const char *)bytes + size);
     else if (strchr(header->data_file, '%'))
-        result = add_numbered(path, header->data_file, &files);
+        result = add_numbered(&s, header->data_file);
     else
-        result = add_name(path, header->data_file, &files);
+        result = add_name(&s, header->data_file);
     if (result == NOOK_OK)
-        *out_files = files;
+        *out_files = s.files;
     else
-        nook_nrrd_files_free(&files);
+        nook_nrrd_files_free(&s.files);
     return result;
 }
 

@@ -1,4 +1,5 @@
 #include "engine/asset/nrrd_internal.h"
+#include "engine/asset/scene_internal.h"
 #include "engine/core/log.h"
 #include <ctype.h>
 #include <math.h>
@@ -137,7 +138,8 @@ static int find_word(const word *words, size_t count, const char *text, int othe
 /* ---- Lines ------------------------------------------------------------------------------------------------------ */
 
 typedef struct reader {
-    const char *path;
+    const char *name;                        /* in messages */
+    nook_scene *scene;                       /* keeps warnings; NULL: none does */
     const char *at, *end;                    /* what is left */
     char value[FIELD_COUNT][VALUE_CAPACITY]; /* "" when absent */
     bool present[FIELD_COUNT];
@@ -196,18 +198,18 @@ static nook_result read_line(reader *r, const char *line, size_t length)
         for (const char *c = colon; c && c + 1 < line + length; c = memchr(c + 1, ':', (size_t)(line + length - c - 1)))
             if (c[1] == '=')
                 return NOOK_OK;
-        return nook_fail(NOOK_E_FORMAT, "%s: header line '%.*s' is neither a field of NRRD nor key:=value", r->path,
+        return nook_fail(NOOK_E_FORMAT, "%s: header line '%.*s' is neither a field of NRRD nor key:=value", r->name,
                          shown, line);
     }
     if (after != ' ')
-        return nook_fail(NOOK_E_FORMAT, "%s: header line '%.*s': a field needs ': ' and a value", r->path, shown, line);
+        return nook_fail(NOOK_E_FORMAT, "%s: header line '%.*s': a field needs ': ' and a value", r->name, shown, line);
     if (which == FIELD_OTHER)
         return NOOK_OK;
     if (r->present[which])
-        return nook_fail(NOOK_E_FORMAT, "%s: header field '%.*s' stands twice", r->path, (int)name_length, line);
+        return nook_fail(NOOK_E_FORMAT, "%s: header field '%.*s' stands twice", r->name, (int)name_length, line);
     r->present[which] = true;
     if (!nook_nrrd_copy_trimmed(colon + 1, length - name_length - 1, r->value[which], VALUE_CAPACITY))
-        return nook_fail(NOOK_E_FORMAT, "%s: header field '%.*s' is too long", r->path, (int)name_length, line);
+        return nook_fail(NOOK_E_FORMAT, "%s: header field '%.*s' is too long", r->name, (int)name_length, line);
     return NOOK_OK;
 }
 
@@ -223,7 +225,7 @@ static nook_result read_lines(reader *r)
     size_t length;
     if (!nook_nrrd_next_line(&r->at, r->end, &line, &length) || length != 8 || memcmp(line, "NRRD000", 7) != 0 ||
         line[7] < '1' || line[7] > '5')
-        return nook_fail(NOOK_E_FORMAT, "%s: not an NRRD file of version 1 to 5", r->path);
+        return nook_fail(NOOK_E_FORMAT, "%s: not an NRRD file of version 1 to 5", r->name);
     while (!is_list(r) && nook_nrrd_next_line(&r->at, r->end, &line, &length)) {
         if (length == 0) {
             r->blank_line = true;
@@ -263,22 +265,22 @@ static nook_result read_sizes(const reader *r, nook_nrrd_header *header)
     const char *text = r->value[FIELD_SIZES];
     int64_t dimension;
     if (!read_number(r->value[FIELD_DIMENSION], 1, NOOK_NRRD_DIMENSION_MAX, &dimension))
-        return nook_fail(NOOK_E_FORMAT, "%s: dimension '%s'; 1 to 4 are read", r->path, r->value[FIELD_DIMENSION]);
+        return nook_fail(NOOK_E_FORMAT, "%s: dimension '%s'; 1 to 4 are read", r->name, r->value[FIELD_DIMENSION]);
     header->dimension = (uint32_t)dimension;
     header->data_bytes = nook_sample_type_size(header->type);
     for (uint32_t axis = 0; axis < header->dimension; axis++) {
         int64_t size;
         if (!nook_nrrd_take_number(&text, &size) || size < 1)
-            return nook_fail(NOOK_E_FORMAT, "%s: sizes '%s' are not %u numbers above 0", r->path, r->value[FIELD_SIZES],
+            return nook_fail(NOOK_E_FORMAT, "%s: sizes '%s' are not %u numbers above 0", r->name, r->value[FIELD_SIZES],
                              header->dimension);
         if ((uint64_t)size > NOOK_SCALAR_BYTES_MAX / header->data_bytes)
-            return nook_fail(NOOK_E_FORMAT, "%s: sizes '%s': more than %llu bytes of samples", r->path,
+            return nook_fail(NOOK_E_FORMAT, "%s: sizes '%s': more than %llu bytes of samples", r->name,
                              r->value[FIELD_SIZES], (unsigned long long)NOOK_SCALAR_BYTES_MAX);
         header->sizes[axis] = (uint32_t)size;
         header->data_bytes *= (uint64_t)size;
     }
     if (*text != 0)
-        return nook_fail(NOOK_E_FORMAT, "%s: sizes '%s' are more than %u numbers", r->path, r->value[FIELD_SIZES],
+        return nook_fail(NOOK_E_FORMAT, "%s: sizes '%s' are more than %u numbers", r->name, r->value[FIELD_SIZES],
                          header->dimension);
     return NOOK_OK;
 }
@@ -346,19 +348,19 @@ static nook_result read_spacing(const reader *r, nook_nrrd_header *header)
     for (uint32_t axis = 0; axis < header->dimension; axis++) {
         double step = NAN;
         if (r->present[which] && !take_step(&text, &step, &slanted))
-            return nook_fail(NOOK_E_FORMAT, "%s: spacing '%s' is not %u steps", r->path, r->value[which],
+            return nook_fail(NOOK_E_FORMAT, "%s: spacing '%s' is not %u steps", r->name, r->value[which],
                              header->dimension);
         if (isinf(step) || step == 0.0)
-            return nook_fail(NOOK_E_FORMAT, "%s: the spacing of axis %u is %g", r->path, axis, step);
+            return nook_fail(NOOK_E_FORMAT, "%s: the spacing of axis %u is %g", r->name, axis, step);
         if (step < 0.0)
-            nook_log_warning("%s: the spacing of axis %u is %g; its sign is left out", r->path, axis, step);
+            nook_scene_warn(r->scene, "%s: the spacing of axis %u is %g; its sign is left out", r->name, axis, step);
         header->spacing[axis] = isnan(step) ? 1.0 : fabs(step);
     }
     if (*text != 0)
-        return nook_fail(NOOK_E_FORMAT, "%s: spacing '%s' is more than %u steps", r->path, r->value[which],
+        return nook_fail(NOOK_E_FORMAT, "%s: spacing '%s' is more than %u steps", r->name, r->value[which],
                          header->dimension);
     if (slanted)
-        nook_log_warning("%s: its space directions turn the volume; only their lengths are used", r->path);
+        nook_scene_warn(r->scene, "%s: its space directions turn the volume; only their lengths are used", r->name);
     return NOOK_OK;
 }
 
@@ -377,7 +379,7 @@ static nook_result read_endian(const reader *r, nook_nrrd_header *header)
     int endian = find_word(endian_words, NOOK_COUNT(endian_words), r->value[FIELD_ENDIAN], ENDIAN_UNKNOWN);
     bool matters = header->encoding != NOOK_NRRD_TEXT && nook_sample_type_size(header->type) > 1;
     if (endian == ENDIAN_UNKNOWN && (matters || r->present[FIELD_ENDIAN]))
-        return nook_fail(NOOK_E_FORMAT, "%s: 'endian: little' or 'endian: big' is missing", r->path);
+        return nook_fail(NOOK_E_FORMAT, "%s: 'endian: little' or 'endian: big' is missing", r->name);
     header->swapped = matters && (endian == ENDIAN_BIG) != this_machine_is_big_endian();
     return NOOK_OK;
 }
@@ -388,14 +390,14 @@ static nook_result read_words(const reader *r, nook_nrrd_header *header)
     static const char *const names[] = { "type", "dimension", "sizes", "encoding" };
     for (size_t i = 0; i < NOOK_COUNT(needed); i++)
         if (!r->present[needed[i]])
-            return nook_fail(NOOK_E_FORMAT, "%s: the header has no field '%s'", r->path, names[i]);
+            return nook_fail(NOOK_E_FORMAT, "%s: the header has no field '%s'", r->name, names[i]);
     int type = find_word(type_words, NOOK_COUNT(type_words), r->value[FIELD_TYPE], NOOK_SAMPLE_TYPE_COUNT);
     if (type == NOOK_SAMPLE_TYPE_COUNT)
-        return nook_fail(NOOK_E_FORMAT, "%s: type '%s' is not read", r->path, r->value[FIELD_TYPE]);
+        return nook_fail(NOOK_E_FORMAT, "%s: type '%s' is not read", r->name, r->value[FIELD_TYPE]);
     int encoding =
         find_word(encoding_words, NOOK_COUNT(encoding_words), r->value[FIELD_ENCODING], NOOK_NRRD_ENCODING_COUNT);
     if (encoding == NOOK_NRRD_ENCODING_COUNT)
-        return nook_fail(NOOK_E_FORMAT, "%s: encoding '%s' is not read", r->path, r->value[FIELD_ENCODING]);
+        return nook_fail(NOOK_E_FORMAT, "%s: encoding '%s' is not read", r->name, r->value[FIELD_ENCODING]);
     header->type = (nook_sample_type)type;
     header->encoding = (nook_nrrd_encoding)encoding;
     return NOOK_OK;
@@ -407,9 +409,9 @@ static nook_result read_skips(const reader *r, nook_nrrd_header *header)
     if ((r->present[FIELD_LINE_SKIP] && !read_number(lines, 0, INT32_MAX, &header->line_skip)) ||
         (r->present[FIELD_BYTE_SKIP] && !read_number(bytes, -1, INT32_MAX, &header->byte_skip)))
         return nook_fail(NOOK_E_FORMAT, "%s: line skip '%s' or byte skip '%s' is not a number of lines or bytes",
-                         r->path, lines, bytes);
+                         r->name, lines, bytes);
     if (header->byte_skip < 0 && header->encoding != NOOK_NRRD_RAW)
-        return nook_fail(NOOK_E_FORMAT, "%s: byte skip -1 goes with raw data only", r->path);
+        return nook_fail(NOOK_E_FORMAT, "%s: byte skip -1 goes with raw data only", r->name);
     return NOOK_OK;
 }
 
@@ -427,16 +429,18 @@ static nook_result read_header(reader *r, nook_nrrd_header *header)
     if (result == NOOK_OK)
         result = read_spacing(r, header);
     if (result == NOOK_OK && !r->present[FIELD_DATA_FILE] && !r->blank_line)
-        result = nook_fail(NOOK_E_FORMAT, "%s: the header has no blank line at its end, and no data follow", r->path);
+        result = nook_fail(NOOK_E_FORMAT, "%s: the header has no blank line at its end, and no data follow", r->name);
     return result;
 }
 
-nook_result nook_nrrd_header_read(const char *path, const uint8_t *bytes, size_t size, nook_nrrd_header *out_header)
+nook_result nook_nrrd_header_read(const char *name, nook_scene *scene, const uint8_t *bytes, size_t size,
+                                  nook_nrrd_header *out_header)
 {
     reader *r = calloc(1, sizeof *r);
     if (!r)
-        return nook_fail(NOOK_E_MEMORY, "%s: no memory to read its header", path);
-    r->path = path;
+        return nook_fail(NOOK_E_MEMORY, "%s: no memory to read its header", name);
+    r->name = name;
+    r->scene = scene;
     r->at = (const char *)bytes;
     r->end = r->at + size;
     nook_nrrd_header header = { 0 };

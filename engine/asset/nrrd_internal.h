@@ -6,6 +6,7 @@
  */
 #pragma once
 #include "engine/asset/scalar_volume.h"
+#include "engine/asset/scene.h"
 #include <stdbool.h>
 
 typedef enum nook_nrrd_encoding {
@@ -33,8 +34,13 @@ typedef struct nook_nrrd_header {
     size_t rest; /**< Where the header's file goes on behind the header: with the data, or with the list of names. */
 } nook_nrrd_header;
 
-/** @return NOOK_E_FORMAT, NOOK_E_MEMORY; *out_header is untouched on failure */
-nook_result nook_nrrd_header_read(const char *path, const uint8_t *bytes, size_t size, nook_nrrd_header *out_header);
+/**
+ * @param name   used in messages only
+ * @param scene  keeps warnings; NULL: they are logged only
+ * @return NOOK_E_FORMAT, NOOK_E_MEMORY; *out_header is untouched on failure
+ */
+nook_result nook_nrrd_header_read(const char *name, nook_scene *scene, const uint8_t *bytes, size_t size,
+                                  nook_nrrd_header *out_header);
 
 /** Takes one line off [*at, end), without its end, which may be \n or \r\n. @return false when nothing is left */
 bool nook_nrrd_next_line(const char **at, const char *end, const char **out_line, size_t *out_length);
@@ -51,27 +57,38 @@ typedef struct nook_nrrd_files {
 
 /**
  * Finds the data files of a detached header. Only regular files at or below the header's folder are accepted.
+ * @param name   used in messages only
+ * @param path   the header's file
  * @param bytes  the header's file, for a list of names behind the header
  * @return NOOK_E_FORMAT, NOOK_E_NOT_FOUND, NOOK_E_MEMORY; *out_files is untouched on failure
  */
-nook_result nook_nrrd_files_find(const char *path, const nook_nrrd_header *header, const uint8_t *bytes, size_t size,
-                                 nook_nrrd_files *out_files);
+nook_result nook_nrrd_files_find(const char *name, const char *path, const nook_nrrd_header *header,
+                                 const uint8_t *bytes, size_t size, nook_nrrd_files *out_files);
 void nook_nrrd_files_free(nook_nrrd_files *files);
+
+/** Who asks for a scalar volume. All zero: nobody that messages name. */
+typedef struct nook_nrrd_owner {
+    const char *
+        name; /**< Stands before a file's name in messages: "room.gltf: nodes[1].extras.nook_density". NULL: nothing does. */
+    nook_scene *scene; /**< Keeps warnings; NULL: they are logged only. */
+} nook_nrrd_owner;
 
 /**
  * nook_scalar_volume_load, and which data files it read besides `path`.
  * @param out_files  none of an attached header; yours to free, also where this fails
  */
-nook_result nook_scalar_volume_load_files(const char *path, nook_scalar_volume *out_volume, nook_nrrd_files *out_files);
+nook_result nook_scalar_volume_load_files(const char *path, const nook_nrrd_owner *owner,
+                                          nook_scalar_volume *out_volume, nook_nrrd_files *out_files);
 
 /**
  * Decodes what one data file stores, skips included, into exactly out_size bytes in this machine's byte order. Never reads or
  * makes more than it must: a stream that inflates to more is stopped there.
  * @param name    used in messages only
+ * @param scene   keeps warnings; NULL: they are logged only
  * @param stored  followed by a zero byte that stored_size does not count
  * @return NOOK_E_FORMAT cut short or damaged; NOOK_E_MEMORY; `out` then holds anything
  */
-nook_result nook_nrrd_decode(const char *name, const nook_nrrd_header *header, const uint8_t *stored,
+nook_result nook_nrrd_decode(const char *name, nook_scene *scene, const nook_nrrd_header *header, const uint8_t *stored,
                              size_t stored_size, uint8_t *out, size_t out_size);
 /** The most bytes that `stored_size` bytes can decode to: for refusing absurd sizes before memory is taken. */
 uint64_t nook_nrrd_most_decoded(const nook_nrrd_header *header, uint64_t stored_size);

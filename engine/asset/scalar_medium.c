@@ -1,5 +1,5 @@
 #include "engine/asset/scalar_medium.h"
-#include "engine/core/log.h"
+#include "engine/asset/scene_internal.h"
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
@@ -41,7 +41,7 @@ static nook_result check(const char *name, const nook_scalar_volume *volume, con
 }
 
 nook_result nook_scalar_medium(const char *name, const nook_scalar_volume *volume, const nook_scalar_transfer *transfer,
-                               nook_medium *out_medium)
+                               nook_scene *scene, nook_medium *out_medium)
 {
     nook_result result = check(name, volume, transfer);
     if (result != NOOK_OK)
@@ -50,15 +50,15 @@ nook_result nook_scalar_medium(const char *name, const nook_scalar_volume *volum
     if (!extinction)
         return nook_fail(NOOK_E_MEMORY, "%s: no memory for %zu samples", name, volume->sample_count);
     if (volume->not_finite > 0)
-        nook_log_warning("%s: %zu samples are not finite; they darken nothing", name, volume->not_finite);
+        nook_scene_warn(scene, "%s: %zu samples are not finite; they darken nothing", name, volume->not_finite);
     bool any = false;
     for (size_t i = 0; i < volume->sample_count; i++) {
         extinction[i] = (float)nook_scalar_extinction(transfer, nook_scalar_volume_sample(volume, i));
         any = any || extinction[i] > 0.0f;
     }
     if (!any)
-        nook_log_warning("%s: no sample reaches into its window of %g to %g; it darkens nothing", name, transfer->low,
-                         transfer->high);
+        nook_scene_warn(scene, "%s: no sample reaches into its window of %g to %g; it darkens nothing", name,
+                        transfer->low, transfer->high);
     *out_medium = (nook_medium){ .extinction = extinction };
     for (int axis = 0; axis < 3; axis++) {
         out_medium->size[axis] = volume->size[axis];

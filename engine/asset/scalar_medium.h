@@ -1,6 +1,7 @@
 /** scalar_medium.h - from the samples of a scalar field to how much light they take: docs/volume_kinds.md, "Scalar fields". */
 #pragma once
 #include "engine/asset/scalar_volume.h"
+#include "engine/asset/scene.h"
 #include "engine/core/medium.h"
 
 #ifdef __cplusplus
@@ -23,12 +24,13 @@ double nook_scalar_extinction(const nook_scalar_transfer *transfer, double sampl
 
 /**
  * A cell for each sample, as large as the samples are apart. Samples that are not finite take nothing, and one warning counts them.
- * @param name  used in messages only
+ * @param name   used in messages only
+ * @param scene  keeps the warnings; NULL: they are logged only
  * @param out_medium  its extinction is yours to free
  * @return NOOK_E_FORMAT several numbers a sample, or sides that no number of metres is; NOOK_E_RANGE the transfer; NOOK_E_MEMORY. Untouched then
  */
 nook_result nook_scalar_medium(const char *name, const nook_scalar_volume *volume, const nook_scalar_transfer *transfer,
-                               nook_medium *out_medium);
+                               nook_scene *scene, nook_medium *out_medium);
 
 #ifdef __cplusplus
 }

@@ -3,10 +3,11 @@
 #include "engine/core/file.h"
 #include "engine/core/log.h"
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <sys/stat.h>
 
-enum { COMPONENTS_MAX = 16 };
+enum { COMPONENTS_MAX = 16, PATH_CAPACITY = 4096 + 128, NAME_CAPACITY = 2 * PATH_CAPACITY /* an owner's and a path */ };
 
 /* ---- Types ------------------------------------------------------------------------------------------------------ */
 
@@ -77,7 +78,7 @@ static void measure_range(nook_scalar_volume *volume)
 /* ---- NRRD ------------------------------------------------------------------------------------------------------- */
 
 /* From the file's axes to x, y, z. A first axis of a few numbers before three more is components. */
-static nook_result set_shape(const char *path, const nook_nrrd_header *header, nook_scalar_volume *volume)
+static nook_result set_shape(const char *name, const nook_nrrd_header *header, nook_scalar_volume *volume)
 {
     uint32_t first = header->dimension == 4 ? 1 : 0;
     volume->dimension = header->dimension;
@@ -91,46 +92,63 @@ static nook_result set_shape(const char *path, const nook_nrrd_header *header, n
     }
     if (volume->components > COMPONENTS_MAX)
         return nook_fail(NOOK_E_FORMAT, "%s: 4 dimensions, of which the first has %u: series of volumes are not read",
-                         path, volume->components);
+                         name, volume->components);
     return NOOK_OK;
 }
 
-static nook_result decode_file(const char *path, const nook_nrrd_header *header, uint8_t *out, size_t out_size)
+/* What messages call a file. @return out */
+static const char *name_file(const nook_nrrd_owner *owner, const char *path, char *out, size_t capacity)
+{
+    snprintf(out, capacity, "%s%s%s", owner->name ? owner->name : "", owner->name ? ": " : "", path);
+    return out;
+}
+
+static nook_result read_file(const nook_nrrd_owner *owner, const char *path, nook_file *out_file)
+{
+    char why[PATH_CAPACITY], text[NAME_CAPACITY];
+    nook_result result = nook_file_try_read(path, out_file, why, sizeof why);
+    return result == NOOK_OK ? NOOK_OK : nook_fail(result, "%s", name_file(owner, why, text, sizeof text));
+}
+
+static nook_result decode_file(const nook_nrrd_owner *owner, const char *path, const nook_nrrd_header *header,
+                               uint8_t *out, size_t out_size)
 {
     nook_file file;
-    nook_result result = nook_file_read(path, &file);
+    char name[NAME_CAPACITY];
+    nook_result result = read_file(owner, path, &file);
     if (result != NOOK_OK)
         return result;
-    result = nook_nrrd_decode(path, header, file.bytes, file.size, out, out_size);
+    result = nook_nrrd_decode(name_file(owner, path, name, sizeof name), owner->scene, header, file.bytes, file.size,
+                              out, out_size);
     nook_file_free(&file);
     return result;
 }
 
 /* Each file holds an equal share of the samples. */
-static nook_result decode_files(const char *path, const nook_nrrd_header *header, const nook_nrrd_files *files,
-                                uint8_t *out)
+static nook_result decode_files(const char *name, const nook_nrrd_owner *owner, const nook_nrrd_header *header,
+                                const nook_nrrd_files *files, uint8_t *out)
 {
     size_t samples = (size_t)header->data_bytes / nook_sample_type_size(header->type);
     if (samples % files->count != 0)
-        return nook_fail(NOOK_E_FORMAT, "%s: %zu samples cannot be shared by %zu data files", path, samples,
+        return nook_fail(NOOK_E_FORMAT, "%s: %zu samples cannot be shared by %zu data files", name, samples,
                          files->count);
     size_t share = (size_t)header->data_bytes / files->count;
     for (size_t i = 0; i < files->count; i++) {
-        nook_result result = decode_file(files->paths[i], header, out + i * share, share);
+        nook_result result = decode_file(owner, files->paths[i], header, out + i * share, share);
         if (result != NOOK_OK)
             return result;
     }
     return NOOK_OK;
 }
 
-static nook_result allocate(const char *path, const nook_nrrd_header *header, uint64_t stored_size, uint8_t **out)
+static nook_result allocate(const char *name, const nook_nrrd_header *header, uint64_t stored_size, uint8_t **out)
 {
     if (header->data_bytes > nook_nrrd_most_decoded(header, stored_size))
-        return nook_fail(NOOK_E_FORMAT, "%s: cut short: %llu bytes of data cannot hold the samples (%llu bytes)", path,
+        return nook_fail(NOOK_E_FORMAT, "%s: cut short: %llu bytes of data cannot hold the samples (%llu bytes)", name,
                          (unsigned long long)stored_size, (unsigned long long)header->data_bytes);
     *out = malloc((size_t)header->data_bytes);
     return *out ? NOOK_OK
-                : nook_fail(NOOK_E_MEMORY, "%s: no memory for %llu bytes of samples", path,
+                : nook_fail(NOOK_E_MEMORY, "%s: no memory for %llu bytes of samples", name,
                             (unsigned long long)header->data_bytes);
 }
 
@@ -144,41 +162,44 @@ static uint64_t total_size(const nook_nrrd_files *files)
 }
 
 /* *out_samples and *out_files may be set on failure too; the caller frees them. */
-static nook_result read_detached(const char *path, const nook_nrrd_header *header, const nook_file *file,
-                                 uint8_t **out_samples, nook_nrrd_files *out_files)
+static nook_result read_detached(const char *name, const char *path, const nook_nrrd_owner *owner,
+                                 const nook_nrrd_header *header, const nook_file *file, uint8_t **out_samples,
+                                 nook_nrrd_files *out_files)
 {
-    nook_result result = nook_nrrd_files_find(path, header, file->bytes, file->size, out_files);
+    nook_result result = nook_nrrd_files_find(name, path, header, file->bytes, file->size, out_files);
     if (result == NOOK_OK)
-        result = allocate(path, header, total_size(out_files), out_samples);
+        result = allocate(name, header, total_size(out_files), out_samples);
     if (result == NOOK_OK)
-        result = decode_files(path, header, out_files, *out_samples);
+        result = decode_files(name, owner, header, out_files, *out_samples);
     return result;
 }
 
-static nook_result read_attached(const char *path, const nook_nrrd_header *header, const nook_file *file,
-                                 uint8_t **out_samples)
+static nook_result read_attached(const char *name, nook_scene *scene, const nook_nrrd_header *header,
+                                 const nook_file *file, uint8_t **out_samples)
 {
     size_t stored_size = file->size - header->rest;
-    nook_result result = allocate(path, header, stored_size, out_samples);
+    nook_result result = allocate(name, header, stored_size, out_samples);
     if (result == NOOK_OK)
-        result = nook_nrrd_decode(path, header, file->bytes + header->rest, stored_size, *out_samples,
+        result = nook_nrrd_decode(name, scene, header, file->bytes + header->rest, stored_size, *out_samples,
                                   (size_t)header->data_bytes);
     return result;
 }
 
-static nook_result load_image(const char *path, const nook_file *file, nook_scalar_volume *out_volume,
-                              nook_nrrd_files *out_files)
+static nook_result load_image(const char *path, const nook_nrrd_owner *owner, const nook_file *file,
+                              nook_scalar_volume *out_volume, nook_nrrd_files *out_files)
 {
+    char name[NAME_CAPACITY];
     nook_nrrd_header header;
     nook_scalar_volume volume = { 0 };
-    nook_result result = nook_nrrd_header_read(path, file->bytes, file->size, &header);
+    nook_result result = nook_nrrd_header_read(name_file(owner, path, name, sizeof name), owner->scene, file->bytes,
+                                               file->size, &header);
     if (result == NOOK_OK)
-        result = set_shape(path, &header, &volume);
+        result = set_shape(name, &header, &volume);
     if (result != NOOK_OK)
         return result;
     uint8_t *samples = NULL;
-    result = header.detached ? read_detached(path, &header, file, &samples, out_files)
-                             : read_attached(path, &header, file, &samples);
+    result = header.detached ? read_detached(name, path, owner, &header, file, &samples, out_files)
+                             : read_attached(name, owner->scene, &header, file, &samples);
     if (result != NOOK_OK) {
         free(samples);
         return result;
@@ -189,22 +210,24 @@ static nook_result load_image(const char *path, const nook_file *file, nook_scal
     return NOOK_OK;
 }
 
-nook_result nook_scalar_volume_load_files(const char *path, nook_scalar_volume *out_volume, nook_nrrd_files *out_files)
+nook_result nook_scalar_volume_load_files(const char *path, const nook_nrrd_owner *owner,
+                                          nook_scalar_volume *out_volume, nook_nrrd_files *out_files)
 {
     nook_file file;
     *out_files = (nook_nrrd_files){ 0 };
-    nook_result result = nook_file_read(path, &file);
+    nook_result result = read_file(owner, path, &file);
     if (result != NOOK_OK)
         return result;
-    result = load_image(path, &file, out_volume, out_files);
+    result = load_image(path, owner, &file, out_volume, out_files);
     nook_file_free(&file);
     return result;
 }
 
 nook_result nook_scalar_volume_load(const char *path, nook_scalar_volume *out_volume)
 {
+    static const nook_nrrd_owner nobody = { 0 };
     nook_nrrd_files files;
-    nook_result result = nook_scalar_volume_load_files(path, out_volume, &files);
+    nook_result result = nook_scalar_volume_load_files(path, &nobody, out_volume, &files);
     nook_nrrd_files_free(&files);
     return result;
 }

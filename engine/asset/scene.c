@@ -36,13 +36,18 @@ void nook_scene_warn(nook_scene *scene, const char *format, ...)
 {
     char text[WARNING_CAPACITY];
     va_list arguments;
-    if (scene->warning_count == WARNINGS_MAX)
+    if (scene && scene->warning_count == WARNINGS_MAX)
         return;
-    if (!scene->warnings && !(scene->warnings = nook_scene_allocate(scene->path, WARNINGS_MAX, sizeof(char *))))
+    if (scene && !scene->warnings &&
+        !(scene->warnings = nook_scene_allocate(scene->path, WARNINGS_MAX, sizeof(char *))))
         return;
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
+    if (!scene) {
+        nook_log_warning("%s", text);
+        return;
+    }
     if (scene->warning_count == WARNINGS_MAX - 1)
         snprintf(text, sizeof text, "%s: further warnings are not shown", scene->path);
     if (!scene->silent)

@@ -4,7 +4,7 @@
 #include "engine/asset/scene_join.h"
 #include "engine/core/log.h"
 
-/** Logs a warning, unless the scene is silent, and keeps its text in the scene. From the 100th on they are neither kept nor logged. */
+/** Logs a warning, unless the scene is silent, and keeps its text in the scene. From the 100th on they are neither kept nor logged. NULL: logs it. */
 void nook_scene_warn(nook_scene *scene, const char *format, ...) NOOK_PRINTF(2, 3);
 
 /** Remembers a file that the scene is made of, once; also one that could not be read. @return false, logged: no memory */

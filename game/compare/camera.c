@@ -1,9 +1,9 @@
 #include "game/compare/camera.h"
 #include "engine/core/angle.h"
 #include "engine/core/log.h"
+#include "engine/core/suggestion.h"
 #include "engine/core/vector.h"
 #include "game/compare/auto_camera.h"
-#include "game/suggestion.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

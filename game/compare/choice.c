@@ -1,7 +1,7 @@
 #include "game/compare/choice.h"
 #include "engine/core/log.h"
+#include "engine/core/suggestion.h"
 #include "game/compare/camera.h"
-#include "game/suggestion.h"
 #include "game/techniques.h"
 #include "modules/ao/nook_ao.h"
 #include "modules/plan/plan_params.h"

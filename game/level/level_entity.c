@@ -1,8 +1,8 @@
 /* The entities of a level's text: "[kind name]" and the lines below it. */
 #include "engine/core/log.h"
+#include "engine/core/suggestion.h"
 #include "engine/core/vector.h"
 #include "game/level/level_internal.h"
-#include "game/suggestion.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 #include "engine/asset/scene_join.h"
 #include "engine/core/log.h"
 #include "engine/core/rotation.h"
-#include "game/suggestion.h"
+#include "engine/core/suggestion.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

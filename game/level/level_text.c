@@ -1,9 +1,9 @@
 /* The text of a level: its lines, and those at the top. */
 #include "engine/core/file.h"
 #include "engine/core/log.h"
+#include "engine/core/suggestion.h"
 #include "game/level/level_internal.h"
 #include "game/option.h"
-#include "game/suggestion.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

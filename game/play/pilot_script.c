@@ -1,10 +1,10 @@
 /* The text of a pilot. */
 #include "engine/core/file.h"
 #include "engine/core/log.h"
+#include "engine/core/suggestion.h"
 #include "game/option.h"
 #include "game/play/pilot_internal.h"
 #include "game/settings/line_reader.h"
-#include "game/suggestion.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

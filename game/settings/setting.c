@@ -1,6 +1,6 @@
 #include "game/settings/setting.h"
 #include "engine/core/log.h"
-#include "game/suggestion.h"
+#include "engine/core/suggestion.h"
 #include "game/techniques.h"
 #include "modules/bake/voxelize.h"
 #include <assert.h>

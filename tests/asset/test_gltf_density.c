@@ -131,6 +131,55 @@ static void test_a_broken_field_breaks_its_scene(void **state)
     refuse(SCENE(GOOD), NOOK_E_FORMAT, "cloud.nrrd");
 }
 
+/* Once, and kept with the scene: ./nook info counts them. */
+static void assert_warns(const char *density, const char *text)
+{
+    nook_scene *scene = test_scene_must_load(test_gltf_write("density.gltf", density));
+    assert_int_equal(scene->warning_count, 2); /* and that there is nothing to draw */
+    assert_non_null(strstr(scene->warnings[0], text));
+    assert_non_null(strstr(scene->warnings[0], "density.gltf: nodes[1].extras.nook_density"));
+    nook_scene_destroy(scene);
+}
+
+static void test_keys_that_are_not_known_are_warned_of_with_the_nearest_that_is(void **state)
+{
+    (void)state;
+    write_good_field();
+    assert_warns(SCENE("{ 'file': 'cloud.nrrd', 'window': [ 0, 100 ], 'length': 1, 'windwo': { 'length': 2 } }"),
+                 "nook_density.windwo is not known and does nothing; did you mean 'window'?");
+    assert_warns(SCENE("{ 'unit': 3, 'file': 'cloud.nrrd', 'window': [ 0, 100 ], 'length': 1 }"),
+                 "nook_density.unit is not known and does nothing; file, window and length are");
+}
+
+static void test_warnings_of_a_field_are_the_scenes_and_name_its_node(void **state)
+{
+    (void)state;
+    write_good_field();
+    assert_warns(SCENE("{ 'file': 'cloud.nrrd', 'window': [ 201, 300 ], 'length': 1 }"), "no sample reaches");
+    write_field("NRRD0004\ntype: uchar\ndimension: 3\nsizes: 3 2 1\nspacings: 1 -1 1\nencoding: raw\n\n");
+    assert_warns(SCENE(GOOD), "cloud.nrrd: the spacing of axis 1 is -1");
+    write_field("NRRD0004\ntype: uchar\ndimension: 3\nsizes: 3 1 1\nencoding: raw\n\n");
+    assert_warns(SCENE(GOOD), "cloud.nrrd: the data behind the last sample");
+}
+
+static void test_a_broken_field_names_its_scene_and_its_node(void **state)
+{
+    static const char detached[] = "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 3 2 2\nencoding: hex\n"
+                                   "data file: slice%d.raw 1 2 1 2\n";
+    (void)state;
+    write_field("NRRD0004\ntype: uchar\ndimension: 3\nsizes: 3 3 3\nencoding: raw\n\n"); /* cut short */
+    refuse(SCENE(GOOD), NOOK_E_FORMAT, "density.gltf: nodes[1].extras.nook_density: ");
+    write_field("NRRD0004\ntype: uchar\nsizes: 3 3 3\nencoding: raw\n\n"); /* no dimension */
+    refuse(SCENE(GOOD), NOOK_E_FORMAT, "density.gltf: nodes[1].extras.nook_density: ");
+    test_bytes_write("cloud.nrrd", detached, sizeof detached - 1);
+    test_bytes_write("slice1.raw", "0123456789ab", 12);
+    test_bytes_write("slice2.raw", "0123456789ax", 12);
+    refuse(SCENE(GOOD), NOOK_E_FORMAT, "density.gltf: nodes[1].extras.nook_density: ");
+    refuse(SCENE(GOOD), NOOK_E_FORMAT, "slice2.raw: byte 0x78");
+    test_bytes_write("cloud.nrrd", "NRRD", 4);
+    refuse(SCENE(GOOD), NOOK_E_FORMAT, "density.gltf: nodes[1].extras.nook_density: ");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -141,6 +190,9 @@ int main(void)
         cmocka_unit_test(test_a_window_upside_down_is_refused),
         cmocka_unit_test(test_files_outside_of_the_scenes_folder_are_not_read),
         cmocka_unit_test(test_a_broken_field_breaks_its_scene),
+        cmocka_unit_test(test_a_broken_field_names_its_scene_and_its_node),
+        cmocka_unit_test(test_keys_that_are_not_known_are_warned_of_with_the_nearest_that_is),
+        cmocka_unit_test(test_warnings_of_a_field_are_the_scenes_and_name_its_node),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -54,7 +54,7 @@ static void test_a_medium_has_the_cells_of_the_samples(void **state)
     float samples[] = { 0.0f, 15.0f, 20.0f };
     nook_scalar_volume v = volume_of(samples, 3);
     nook_medium medium;
-    assert_int_equal(nook_scalar_medium("test", &v, &window, &medium), NOOK_OK);
+    assert_int_equal(nook_scalar_medium("test", &v, &window, NULL, &medium), NOOK_OK);
     assert_int_equal(medium.size[0], 3);
     assert_int_equal(medium.size[2], 1);
     assert_true(medium.spacing[0] == 0.25 && medium.spacing[2] == 1.0);
@@ -69,7 +69,7 @@ static nook_medium expect_warning(const nook_scalar_volume *v, const char *words
     nook_medium medium;
     nook_log_capture log;
     nook_log_capture_begin(&log);
-    nook_result result = nook_scalar_medium("test", v, &window, &medium);
+    nook_result result = nook_scalar_medium("test", v, &window, NULL, &medium);
     nook_log_capture_end();
     assert_int_equal(result, NOOK_OK);
     assert_int_equal(log.count, 1);
@@ -104,7 +104,7 @@ static void assert_refused(const nook_scalar_volume *v, const nook_scalar_transf
     nook_medium medium = { .size = { 7, 7, 7 } }, before = medium;
     nook_log_capture log;
     nook_log_capture_begin(&log);
-    nook_result result = nook_scalar_medium("test", v, transfer, &medium);
+    nook_result result = nook_scalar_medium("test", v, transfer, NULL, &medium);
     nook_log_capture_end();
     if (result != code || log.count != 1 || !strstr(log.text, word))
         fail_msg("%d, %d lines: %s", result, log.count, log.text);

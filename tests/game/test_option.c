@@ -261,17 +261,6 @@ static void test_printed_help_holds_every_option(void **state)
                               "  --help                     print this\n\nThe end.\n");
 }
 
-static void test_text_distance_counts_edits(void **state)
-{
-    (void)state;
-    assert_int_equal(nook_text_distance("size", "size"), 0);
-    assert_int_equal(nook_text_distance("size", "sise"), 1);
-    assert_int_equal(nook_text_distance("", "abc"), 3);
-    assert_int_equal(nook_text_distance("kitten", "sitting"), 3);
-    assert_int_equal(nook_text_distance("sitting", "kitten"), 3);
-    assert_int_equal(nook_text_distance("a", "0123456789012345678901234567890123456789"), 1000);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -291,7 +280,6 @@ int main(void)
         cmocka_unit_test(test_a_custom_option_decides_what_it_takes),
         cmocka_unit_test(test_help_is_found_even_behind_an_error),
         cmocka_unit_test(test_printed_help_holds_every_option),
-        cmocka_unit_test(test_text_distance_counts_edits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
