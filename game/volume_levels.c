@@ -1,5 +1,4 @@
 #include "game/volume_levels.h"
-#include "engine/core/log.h"
 #include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
@@ -47,19 +46,11 @@ bool nook_resolutions_read(const char *text, nook_resolutions *out)
     return true;
 }
 
-static nook_result check_kept(const nook_volumes_desc *desc, const nook_bake *bakes)
-{
-    for (uint32_t level = 0; desc->must_keep && level < NOOK_VOXELIZE_LEVELS; level++)
-        if (bakes[level].bytes && bakes[level].keep_error)
-            return nook_fail(NOOK_E_IO, "%s: cannot keep volumes there: %s; give another --cache", desc->cache_dir,
-                             strerror(bakes[level].keep_error));
-    return NOOK_OK;
-}
-
 nook_result nook_scene_volume_bake_levels(const nook_scene_volume *volume, nook_volume_kind kind,
                                           const nook_volumes_desc *desc, uint32_t levels, nook_bake *out)
 {
     nook_bake bakes[NOOK_VOXELIZE_LEVELS] = { { .bytes = NULL } };
+    bool warned = false;
     nook_triangles triangles;
     nook_alphas alphas;
     nook_volumes_select(volume, kind, &triangles, &alphas);
@@ -71,8 +62,8 @@ nook_result nook_scene_volume_bake_levels(const nook_scene_volume *volume, nook_
             .resolution = volume->resolution, .threads = desc->threads, .kind = kind, .alphas = &alphas
         };
         nook_result result = nook_bake_cached_levels(desc->cache_dir, volume->name, &triangles, &how, levels, bakes);
-        if (result == NOOK_OK)
-            result = check_kept(desc, bakes);
+        for (uint32_t level = 0; level < NOOK_VOXELIZE_LEVELS && result == NOOK_OK; level++)
+            result = nook_volumes_check_kept(desc, &bakes[level], &warned);
         if (result != NOOK_OK) {
             for (uint32_t level = 0; level < NOOK_VOXELIZE_LEVELS; level++)
                 nook_bake_free(&bakes[level]);

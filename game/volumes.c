@@ -408,6 +408,21 @@ nook_result nook_volumes_collect(const nook_scene *scene, const nook_volumes_des
     return NOOK_OK;
 }
 
+nook_result nook_volumes_reserve(nook_scene_volumes *volumes, uint32_t more)
+{
+    const size_t volume_count = (size_t)volumes->volume_count + more;
+    const size_t occluder_count = (size_t)volumes->occluder_count + more;
+    if (more == 0)
+        return NOOK_OK;
+    nook_scene_volume *grown = realloc(volumes->volumes, volume_count * sizeof *grown);
+    if (grown)
+        volumes->volumes = grown;
+    nook_scene_occluder *occluders = realloc(volumes->occluders, occluder_count * sizeof *occluders);
+    if (occluders)
+        volumes->occluders = occluders;
+    return grown && occluders ? NOOK_OK : nook_fail(NOOK_E_MEMORY, "no memory for %u more volumes", more);
+}
+
 void nook_volumes_free(nook_scene_volumes *volumes)
 {
     if (!volumes)

@@ -127,6 +127,9 @@ uint32_t nook_volumes_body_resolution(double longest, double r_max, uint32_t res
  */
 nook_result nook_volumes_collect(const nook_scene *scene, const nook_volumes_desc *desc, nook_scene_volumes *out);
 
+/** Makes room for so many more volumes and occluders, behind those that are there. @return NOOK_E_MEMORY */
+nook_result nook_volumes_reserve(nook_scene_volumes *volumes, uint32_t more);
+
 /**
  * Puts the scene's densities behind what is there, each a volume of its own that stands still: after a plan, which knows triangles only.
  * @return NOOK_E_MEMORY
@@ -139,6 +142,12 @@ nook_result nook_volumes_add_densities(const nook_scene *scene, uint32_t resolut
  * @return NOOK_E_RANGE resolution or r_max; NOOK_E_MEMORY; NOOK_E_IO must_keep, and they cannot be kept; *out is untouched on failure
  */
 nook_result nook_volumes_bake(const nook_scene *scene, const nook_volumes_desc *desc, nook_scene_volumes *out);
+/**
+ * Whether a bake is in the cache, as the desc asks. What stops one volume stops all: one line for the whole cache.
+ * @param warned  false before the first; true once the line is out
+ * @return NOOK_E_IO must_keep, and it is not
+ */
+nook_result nook_volumes_check_kept(const nook_volumes_desc *desc, const nook_bake *bake, bool *warned);
 /** Whether blended triangles are in volumes of a kind; the others would make glass as dark as a wall. */
 bool nook_volumes_holds_blended(nook_volume_kind kind);
 /** What a kind is made of. @param out_triangles  of the volume; none: there is nothing to bake @param out_alphas  of them */

@@ -9,8 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* One line for the whole cache: what stops one volume stops all. */
-static nook_result check_kept(const nook_volumes_desc *desc, const nook_bake *bake, bool *warned)
+nook_result nook_volumes_check_kept(const nook_volumes_desc *desc, const nook_bake *bake, bool *warned)
 {
     if (bake->keep_error == 0 || *warned)
         return NOOK_OK;
@@ -124,7 +123,7 @@ static nook_result bake_kind(const nook_volumes_desc *desc, double r_max, nook_s
         return result;
     }
     take_levels(desc, r_max, kind, bakes, volume);
-    return check_kept(desc, &volume->bakes[kind], warned);
+    return nook_volumes_check_kept(desc, &volume->bakes[kind], warned);
 }
 
 static void set_scales(nook_scene_volumes *volumes)
@@ -153,23 +152,9 @@ static nook_result bake_all(const nook_volumes_desc *desc, nook_scene_volumes *v
     return NOOK_OK;
 }
 
-/* Room for the densities, behind the volumes and occluders that are there. */
-static nook_result grow(const nook_scene *scene, nook_scene_volumes *volumes)
-{
-    size_t more = scene->density_count;
-    nook_scene_volume *grown = realloc(volumes->volumes, (volumes->volume_count + more) * sizeof *grown);
-    if (grown)
-        volumes->volumes = grown;
-    nook_scene_occluder *occluders = realloc(volumes->occluders, (volumes->occluder_count + more) * sizeof *occluders);
-    if (occluders)
-        volumes->occluders = occluders;
-    return grown && occluders ? NOOK_OK
-                              : nook_fail(NOOK_E_MEMORY, "%s: no memory for %zu densities", scene->path, more);
-}
-
 nook_result nook_volumes_add_densities(const nook_scene *scene, uint32_t resolution, nook_scene_volumes *volumes)
 {
-    nook_result result = scene->density_count > 0 ? grow(scene, volumes) : NOOK_OK;
+    nook_result result = nook_volumes_reserve(volumes, scene->density_count);
     for (uint32_t i = 0; i < scene->density_count && result == NOOK_OK; i++) {
         const nook_scene_density *density = &scene->densities[i];
         nook_scene_volume volume = { .name = strdup(density->name), .medium = &density->medium, .instances = 1 };

@@ -4,6 +4,7 @@
 #include "game/animation.h"
 #include "game/draw_list.h"
 #include "game/progress.h"
+#include "game/settings/setting.h"
 #include "game/stream_volumes.h"
 #include "game/volumes.h"
 #include "modules/ao/residency.h"
@@ -43,8 +44,8 @@ static void show_bake(void *user, const nook_scene_volume *done, uint32_t index,
 bool nook_game_world_multiplies(const nook_ao *ao)
 {
     double combine, path;
-    return nook_ao_get_param(ao, "volume.combine", &combine) != NOOK_OK || combine == 0.0 ||
-           nook_ao_get_param(ao, "volume.path", &path) != NOOK_OK || path != 0.0;
+    return nook_ao_get_param(ao, "volume.combine", &combine) != NOOK_OK ||
+           nook_ao_get_param(ao, "volume.path", &path) != NOOK_OK || nook_setting_values_multiply(combine, path);
 }
 
 static nook_result bake(const nook_game_world *world, const nook_game_world_desc *desc, uint32_t kinds,

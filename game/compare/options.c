@@ -1,5 +1,6 @@
 #include "game/compare/options.h"
 #include "engine/core/result.h"
+#include "game/volumes.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -47,12 +48,15 @@ bool nook_compare_options_read(const nook_app *app, int argc, char **argv, nook_
     };
     out->scene = nook_option_default_scene(app, out->default_scene);
     out->cache = nook_option_default_cache(app, out->default_cache);
-    char view_help[512], view_names[512], view_expects[600];
+    char view_help[512], view_names[512], view_expects[600], resolution_help[128];
     snprintf(view_help, sizeof view_help,
              "also writes view_<name>.png of the frame, names with commas between:\n%29s%s", "",
              nook_view_list_names(6, view_names, sizeof view_names));
     snprintf(view_expects, sizeof view_expects, "names with commas between, of %s",
              nook_view_list_names(0, view_names, sizeof view_names));
+    snprintf(resolution_help, sizeof resolution_help,
+             "voxels along the longest side of what stands still; a body has at most half; default %u",
+             NOOK_VOLUMES_RESOLUTION_DEFAULT);
     const nook_option options[] = {
         nook_option_row_settings(
             &out->settings,
@@ -136,9 +140,7 @@ bool nook_compare_options_read(const nook_app *app, int argc, char **argv, nook_
           .placeholder = "DIR",
           .help = "where the pictures and compare.json go; default out" },
         nook_option_row_backend(&out->backend),
-        nook_option_row_resolution(
-            &out->resolution,
-            "voxels along the longest side of what stands still; a body has at most half; default 256"),
+        nook_option_row_resolution(&out->resolution, resolution_help),
         nook_option_row_cache(&out->cache, "where baked volumes are kept; default: cache/ of Nook"),
         { .name = "no-window",
           .kind = NOOK_OPTION_FLAG,

@@ -75,21 +75,6 @@ static nook_result make_group(const nook_plan *plan, const nook_scene_volumes *v
     return NOOK_OK;
 }
 
-/* Room for the groups, behind the volumes and occluders that are there. */
-static nook_result grow(nook_scene_volumes *volumes, uint32_t more)
-{
-    nook_scene_volume *grown = realloc(volumes->volumes, ((size_t)volumes->volume_count + more) * sizeof *grown);
-    if (grown)
-        volumes->volumes = grown;
-    nook_scene_occluder *occluders =
-        realloc(volumes->occluders, ((size_t)volumes->occluder_count + more) * sizeof *occluders);
-    if (occluders)
-        volumes->occluders = occluders;
-    if (!grown || !occluders)
-        return nook_fail(NOOK_E_MEMORY, "plan: no memory for %u static volumes", more);
-    return NOOK_OK;
-}
-
 /* The first group takes the place of the static body, the others come last. */
 static nook_result add_groups(const nook_plan *plan, uint32_t static_occluder, uint32_t *new_of_old,
                               nook_scene_volumes *volumes)
@@ -119,7 +104,7 @@ static nook_result split_static(const nook_plan *plan, nook_scene_volumes *volum
     while (at < volumes->occluder_count && volumes->occluders[at].node != NOOK_NONE)
         at++;
     assert(at < volumes->occluder_count && volumes->part_count > 0);
-    nook_result result = grow(volumes, plan->group_count);
+    nook_result result = nook_volumes_reserve(volumes, plan->group_count);
     if (result != NOOK_OK)
         return result;
     uint32_t whole = volumes->occluders[at].volume;

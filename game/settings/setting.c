@@ -302,12 +302,21 @@ double nook_setting_get(const nook_setting *setting, const nook_param *param)
     return param->initial;
 }
 
+/* Choices of modules/ao_volume/params.def. */
+enum { COMBINE_MULTIPLY = 0, PATH_COMPUTE = 0 };
+
+bool nook_setting_values_multiply(double combine, double path)
+{
+    return combine == COMBINE_MULTIPLY || path != PATH_COMPUTE;
+}
+
 bool nook_setting_multiplies(const nook_setting *setting)
 {
     const nook_ao_technique *technique = setting->technique;
     const nook_param *combine = nook_param_find(technique->params, technique->param_count, "combine");
     const nook_param *path = nook_param_find(technique->params, technique->param_count, "path");
-    return (combine && nook_setting_get(setting, combine) == 0.0) || (path && nook_setting_get(setting, path) != 0.0);
+    return combine && path &&
+           nook_setting_values_multiply(nook_setting_get(setting, combine), nook_setting_get(setting, path));
 }
 
 nook_result nook_setting_apply(nook_ao *ao, const nook_setting *setting)

@@ -60,6 +60,8 @@ double nook_setting_get(const nook_setting *setting, const nook_param *param);
 
 /** Whether several volumes multiply their visibilities (volume.combine, volume.path), as a plan must know. */
 bool nook_setting_multiplies(const nook_setting *setting);
+/** The same of values of volume.combine and volume.path. */
+bool nook_setting_values_multiply(double combine, double path);
 
 /**
  * After code was loaded anew, while the old one is still there: points to the technique and the parameters that have the
