@@ -82,10 +82,10 @@ static void pass_progress_on(void *user, double fraction)
         answer_events(stage, &input);
 }
 
-/* A body is one occluder each frame, and so is all that stands still. */
+/* A body is one occluder each frame, and so are a density and all that stands still. */
 static uint32_t count_occluders(const nook_scene *scene)
 {
-    uint32_t count = 1;
+    uint32_t count = 1 + scene->density_count;
     for (uint32_t i = 0; i < scene->node_count; i++)
         count += scene->nodes[i].mesh != NOOK_NONE && (scene->nodes[i].moving || scene->nodes[i].animated);
     return count;

@@ -1,5 +1,6 @@
 /* Panes and masks on the GPU, and what the reference's rays see of them: both hold back half through a checker. */
 #include "tests/support/ao_fixture.h"
+#include "tests/support/test_mask.h"
 #include <math.h>
 
 #include <setjmp.h>
@@ -48,14 +49,7 @@ static void make_checker(checker *c, float repeat)
     for (int i = 0; i < 6; i++)
         for (int k = 0; k < 2; k++)
             c->uvs[i][k] = (float)corner[i][k] * repeat;
-    c->part = (nook_alpha_part){ .index_count = 6,
-                                 .alpha = 1,
-                                 .masked = true,
-                                 .cutoff = 0.5f,
-                                 .texels = c->texels,
-                                 .width = 2,
-                                 .height = 2,
-                                 .texel_size = 1 };
+    c->part = test_mask(0, 6, c->texels, 2);
     c->alphas = (nook_alphas){ &c->part, 1, c->uvs[0] };
 }
 

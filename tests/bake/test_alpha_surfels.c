@@ -1,5 +1,6 @@
 /* Surfels and voxels of what is not opaque: a voxel counts by the area that its textures leave. */
 #include "tests/support/surfel_shapes.h"
+#include "tests/support/test_mask.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -79,9 +80,7 @@ static nook_alpha_part checker(uint32_t cells)
     assert_non_null(texels);
     for (uint32_t i = 0; i < cells * cells; i++)
         texels[i] = (i % cells + i / cells) % 2 ? 127 : 128;
-    return (nook_alpha_part){
-        .alpha = 1, .masked = true, .cutoff = 0.5f, .texels = texels, .width = cells, .height = cells, .texel_size = 1
-    };
+    return test_mask(0, 0, texels, cells);
 }
 
 static void free_checker(nook_alpha_part *part)
@@ -143,9 +142,7 @@ static void test_what_a_mask_leaves_lies_in_the_plane_of_the_surface(void **stat
     uint8_t texels[32 * 32];
     for (int i = 0; i < 32 * 32; i++)
         texels[i] = i % 2 == 0 && i / 32 % 2 == 0 ? 255 : 0;
-    const nook_alpha_part part = {
-        .alpha = 1, .masked = true, .cutoff = 0.5f, .texels = texels, .width = 32, .height = 32, .texel_size = 1
-    };
+    const nook_alpha_part part = test_mask(0, 0, texels, 32);
     square *s = make_square(1.0f, &part);
     nook_volume v = make(s, NOOK_VOLUME_SURFEL, 1);
     for (uint32_t x = 2; x < SIDE; x++) {
@@ -173,9 +170,7 @@ static void test_a_mask_that_keeps_all_changes_no_bit(void **state)
 {
     (void)state;
     const uint8_t texel = 200;
-    const nook_alpha_part part = {
-        .alpha = 1, .masked = true, .cutoff = 0.5f, .texels = &texel, .width = 1, .height = 1, .texel_size = 1
-    };
+    const nook_alpha_part part = test_mask(0, 0, &texel, 1);
     square *s = make_square(3.0f, &part);
     nook_volume masked = make(s, NOOK_VOLUME_SURFEL, 1);
     s->part.index_count = 0;

@@ -4,6 +4,7 @@
 #include "tests/support/log_capture.h"
 #include "tests/support/scratch.h"
 #include "tests/support/surfel_shapes.h"
+#include "tests/support/test_mask.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -48,15 +49,7 @@ static hills *make_hills(void)
     h->index_count = (size_t)(next - h->indices);
     for (int i = 0; i < 16; i++)
         h->texels[i] = i % 3 ? 255 : 0;
-    h->part = (nook_alpha_part){ .first_index = 3 * TRIANGLES / 2,
-                                 .index_count = 3 * TRIANGLES / 2,
-                                 .alpha = 1,
-                                 .masked = true,
-                                 .cutoff = 0.5f,
-                                 .texels = h->texels,
-                                 .width = 4,
-                                 .height = 4,
-                                 .texel_size = 1 };
+    h->part = test_mask(3 * TRIANGLES / 2, 3 * TRIANGLES / 2, h->texels, 4);
     h->alphas = (nook_alphas){ &h->part, 1, h->uvs[0] };
     return h;
 }

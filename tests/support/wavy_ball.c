@@ -1,4 +1,5 @@
 #include "tests/support/wavy_ball.h"
+#include "tests/support/test_mask.h"
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -29,15 +30,7 @@ test_wavy_ball *test_make_wavy_ball(float waves)
     }
     for (int i = 0; i < 16; i++)
         b->texels[i] = (i + i / 4) % 2 ? 255 : 0;
-    b->part = (nook_alpha_part){ .first_index = WAVY_INDICES / 2,
-                                 .index_count = WAVY_INDICES / 2,
-                                 .alpha = 1,
-                                 .masked = true,
-                                 .cutoff = 0.5f,
-                                 .texels = b->texels,
-                                 .width = 4,
-                                 .height = 4,
-                                 .texel_size = 1 };
+    b->part = test_mask(WAVY_INDICES / 2, WAVY_INDICES / 2, b->texels, 4);
     b->alphas = (nook_alphas){ &b->part, 1, b->uvs[0] };
     return b;
 }
