@@ -23,7 +23,7 @@ layout(binding = 5) uniform sampler2D normal_before;
 layout(binding = 6) uniform sampler2D visibility_before;
 layout(binding = 7) uniform usampler2D age_before;
 layout(binding = 0, r32f) uniform writeonly image2D visibility_image;
-layout(binding = 1, r8ui) uniform writeonly uimage2D age_image; // frames since it was traced
+layout(binding = 1, r8ui) uniform writeonly uimage2D age_image; // ages_packed()
 layout(std430, binding = 3) buffer Tiles { // tiles.glsl
     uint groups_x, groups_y, groups_z, count;
     Tile tiles[];

@@ -36,6 +36,39 @@ struct Layer {
     float first, last, alpha; // alpha 0: none
 };
 
+// From voxel to voxel: the axis on which one is left is stepped by an integer, so that no rounding turns a ray back. A straight line
+// crosses no more voxels than the volume has along its three sides together (line_voxels): loops are no longer than that.
+struct Line {
+    vec3 origin, inverse;
+    ivec3 size, base, ahead, voxel; // ahead: 1 where the line leaves a voxel by its upper face
+    float at, out_at, metre;        // where the line comes into its voxel; where the volume ends
+};
+
+Line line_through(Occluder o, vec3 origin, vec3 d)
+{
+    vec3 along = direction_to_voxel(o, d);
+    float metre = length(along);
+    along /= metre;
+    ivec3 size = ivec3(o.size.xyz);
+    vec3 inverse = 1.0 / mix(along, vec3(1e-9), lessThan(abs(along), vec3(1e-9)));
+    vec3 a = (1.0 - origin) * inverse, b = (vec3(size - 1) - origin) * inverse, near = min(a, b); // the outermost voxels are empty
+    float at = max(max(near.x, near.y), max(near.z, 0.0));
+    ivec3 voxel = clamp(ivec3(floor(origin + along * at)), ivec3(1), size - 2);
+    return Line(origin, inverse, size, ivec3(o.place.xyz), ivec3(step(0.0, inverse)), voxel, at, least(max(a, b)), metre);
+}
+
+vec3 exits_of(Line line)
+{
+    return (vec3(line.voxel + line.ahead) - line.origin) * line.inverse;
+}
+
+void go_on(vec3 exits, float leave, inout Line line)
+{
+    line.voxel += (2 * line.ahead - 1) * ivec3(lessThanEqual(exits, vec3(leave)));
+    bool out_of_it = any(lessThan(line.voxel, ivec3(1))) || any(greaterThan(line.voxel, line.size - 2));
+    line.at = out_of_it ? 1e30 : leave;
+}
+
 void leave_layer(float metre, inout Layer layer, inout Passage passage)
 {
     if (layer.alpha > 0.0)
@@ -43,42 +76,31 @@ void leave_layer(float metre, inout Layer layer, inout Passage passage)
     layer.alpha = 0.0;
 }
 
-// From voxel to voxel: the axis on which one is left is stepped by an integer, so that no rounding turns a ray back. A straight line
-// crosses no more voxels than the volume has along its three sides together: the loop is no longer than that. A layer counts once
-// on a ray, with the largest alpha that the ray meets in it; one that begins within reach is walked to its end.
+// A layer counts once on a ray, with the largest alpha that the ray meets in it; one that begins within reach is walked to its end.
 Passage walk_layers(Occluder o, Receiver r, vec3 d, float limit)
 {
     Passage passage = free_passage();
     Layer layer = Layer(0.0, 0.0, 0.0);
-    vec3 along = direction_to_voxel(o, d), origin = r.voxel;
-    float metre = length(along);
-    along /= metre;
-    ivec3 size = ivec3(o.size.xyz), base = ivec3(o.place.xyz);
-    vec3 inverse = 1.0 / mix(along, vec3(1e-9), lessThan(abs(along), vec3(1e-9)));
-    ivec3 ahead = ivec3(step(0.0, inverse)), side = 2 * ahead - 1;
-    vec3 a = (1.0 - origin) * inverse, b = (vec3(size - 1) - origin) * inverse, near = min(a, b); // the outermost voxels are empty
-    float t = max(max(near.x, near.y), max(near.z, 0.0)), out_at = least(max(a, b));
-    float end = min(out_at, min(frame.r_max, limit) * metre);
-    ivec3 voxel = clamp(ivec3(floor(origin + along * t)), ivec3(1), size - 2);
-    int most = line_voxels(size);
-    for (int turns = 0; turns < most && t < (layer.alpha > 0.0 ? out_at : end); turns++) {
+    Line line = line_through(o, r.voxel, d);
+    float end = min(line.out_at, min(frame.r_max, limit) * line.metre);
+    int most = line_voxels(line.size);
+    for (int turns = 0; turns < most && line.at < (layer.alpha > 0.0 ? line.out_at : end); turns++) {
         steps++;
-        float alpha = fetch_texel(volume_atlas, base + voxel).r;
-        vec3 exits = (vec3(voxel + ahead) - origin) * inverse;
-        float leave = max(least(exits), t);
-        if (alpha > 0.0 && dot(vec3(voxel) + 0.5 - origin, r.normal) > r.own) {
-            layer.first = layer.alpha > 0.0 ? layer.first : t;
+        float alpha = fetch_texel(volume_atlas, line.base + line.voxel).r;
+        vec3 exits = exits_of(line);
+        float leave = max(least(exits), line.at);
+        if (alpha > 0.0 && dot(vec3(line.voxel) + 0.5 - line.origin, r.normal) > r.own) {
+            layer.first = layer.alpha > 0.0 ? layer.first : line.at;
             layer.last = leave;
             layer.alpha = max(layer.alpha, alpha);
         } else if (leave - layer.last >= GAP) {
-            leave_layer(metre, layer, passage);
+            leave_layer(line.metre, layer, passage);
         }
         if (passage.transmittance == 0.0 || (layer.alpha == 1.0 && leave - layer.first > 2.0 * DEEPEST))
             break;
-        voxel += side * ivec3(lessThanEqual(exits, vec3(leave)));
-        t = any(lessThan(voxel, ivec3(1))) || any(greaterThan(voxel, size - 2)) ? 1e30 : leave;
+        go_on(exits, leave, line);
     }
-    leave_layer(metre, layer, passage);
+    leave_layer(line.metre, layer, passage);
     return passage;
 }
 
@@ -87,26 +109,18 @@ Passage walk_layers(Occluder o, Receiver r, vec3 d, float limit)
 Passage walk_medium(Occluder o, Receiver r, vec3 d, float limit)
 {
     Passage passage = free_passage();
-    vec3 along = direction_to_voxel(o, d), origin = r.voxel;
-    float metre = length(along);
-    along /= metre;
-    ivec3 size = ivec3(o.size.xyz), base = ivec3(o.place.xyz);
-    vec3 inverse = 1.0 / mix(along, vec3(1e-9), lessThan(abs(along), vec3(1e-9)));
-    ivec3 ahead = ivec3(step(0.0, inverse)), side = 2 * ahead - 1;
-    vec3 a = (1.0 - origin) * inverse, b = (vec3(size - 1) - origin) * inverse, near = min(a, b); // the outermost voxels are empty
-    float t = max(max(near.x, near.y), max(near.z, 0.0)), end = min(least(max(a, b)), min(frame.r_max, limit) * metre);
-    ivec3 voxel = clamp(ivec3(floor(origin + along * t)), ivec3(1), size - 2);
-    int most = line_voxels(size);
-    for (int turns = 0; turns < most && t < end && passage.transmittance > 1.0 / 512.0; turns++) {
+    Line line = line_through(o, r.voxel, d);
+    float end = min(line.out_at, min(frame.r_max, limit) * line.metre);
+    int most = line_voxels(line.size);
+    for (int turns = 0; turns < most && line.at < end && passage.transmittance > 1.0 / 512.0; turns++) {
         steps++;
-        float depth = o.place.w * fetch_texel(volume_atlas, base + voxel).r;
-        vec3 exits = (vec3(voxel + ahead) - origin) * inverse;
-        float leave = max(least(exits), t), last = min(leave, end);
-        float taken = passage.transmittance * (1.0 - exp(-depth * (last - t)));
-        passage.occlusion += taken * falloff(0.5 * (t + last) / metre);
+        float depth = o.place.w * fetch_texel(volume_atlas, line.base + line.voxel).r;
+        vec3 exits = exits_of(line);
+        float leave = max(least(exits), line.at), last = min(leave, end);
+        float taken = passage.transmittance * (1.0 - exp(-depth * (last - line.at)));
+        passage.occlusion += taken * falloff(0.5 * (line.at + last) / line.metre);
         passage.transmittance -= taken;
-        voxel += side * ivec3(lessThanEqual(exits, vec3(leave)));
-        t = any(lessThan(voxel, ivec3(1))) || any(greaterThan(voxel, size - 2)) ? 1e30 : leave;
+        go_on(exits, leave, line);
     }
     return passage;
 }

@@ -89,17 +89,7 @@ static double count_rays(const box *b)
 
 static void evaluate(nook_gpu *gpu, const box *boxes, float *weights, size_t count)
 {
-    nook_program program;
-    nook_buffer in, out;
-    assert_int_equal(nook_program_compute(gpu, "tests/ao/box_weight.comp.glsl", "", &program), NOOK_OK);
-    assert_int_equal(nook_buffer_create(gpu, boxes, count * sizeof *boxes, &in), NOOK_OK);
-    assert_int_equal(nook_buffer_create(gpu, NULL, count * sizeof *weights, &out), NOOK_OK);
-    nook_bind_storage(gpu, 0, in);
-    nook_bind_storage(gpu, 1, out);
-    nook_dispatch(gpu, program, nook_groups((uint32_t)count, 64), 1, 1);
-    nook_buffer_read(gpu, out, 0, weights, count * sizeof *weights);
-    nook_buffer_destroy(gpu, &in);
-    nook_buffer_destroy(gpu, &out);
+    test_gpu_map(gpu, "tests/ao/box_weight.comp.glsl", boxes, sizeof *boxes, weights, sizeof *weights, count);
 }
 
 static void test_a_box_takes_the_part_of_the_sky_in_which_rays_meet_it(void **state)

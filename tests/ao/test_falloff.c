@@ -68,21 +68,12 @@ static void test_falloff_has_the_values_of_its_formulas(void **state)
 static void evaluate_on_gpu(nook_gpu *gpu, int falloff, float r_max, const float *distances, float *values,
                             size_t count)
 {
-    nook_program program;
-    nook_buffer frame, in, out;
+    nook_buffer frame;
     frame_block block = { .r_max = r_max, .falloff = falloff, .falloff_tau = (float)tau };
-    assert_int_equal(nook_program_compute(gpu, "tests/ao/falloff.comp.glsl", "", &program), NOOK_OK);
     assert_int_equal(nook_buffer_create(gpu, &block, sizeof block, &frame), NOOK_OK);
-    assert_int_equal(nook_buffer_create(gpu, distances, count * sizeof *distances, &in), NOOK_OK);
-    assert_int_equal(nook_buffer_create(gpu, NULL, count * sizeof *values, &out), NOOK_OK);
     nook_bind_uniform(gpu, 0, frame);
-    nook_bind_storage(gpu, 0, in);
-    nook_bind_storage(gpu, 1, out);
-    nook_dispatch(gpu, program, nook_groups((uint32_t)count, 64), 1, 1);
-    nook_buffer_read(gpu, out, 0, values, count * sizeof *values);
+    test_gpu_map(gpu, "tests/ao/falloff.comp.glsl", distances, sizeof *distances, values, sizeof *values, count);
     nook_buffer_destroy(gpu, &frame);
-    nook_buffer_destroy(gpu, &in);
-    nook_buffer_destroy(gpu, &out);
 }
 
 static void test_falloff_in_glsl_agrees_with_c(void **state)

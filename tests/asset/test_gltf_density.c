@@ -72,6 +72,19 @@ static void test_the_samples_beside_a_detached_header_are_files_of_the_scene(voi
     nook_scene_destroy(scene);
 }
 
+static void test_a_field_that_its_node_flattens_is_left_out_with_a_warning(void **state)
+{
+    (void)state;
+    write_good_field();
+    nook_scene *scene = test_scene_must_load(test_gltf_write(
+        "flat.gltf",
+        "{ 'asset': { 'version': '2.0' }, 'scenes': [ { 'nodes': [ 0 ] } ], 'nodes': [ { 'scale': [ 2, 0, 2 ], "
+        "'extras': { 'nook_density': " GOOD " } } ] }"));
+    assert_non_null(strstr(scene->warnings[0], "nodes[0].extras.nook_density is flattened to nothing"));
+    assert_int_equal(scene->density_count, 0);
+    nook_scene_destroy(scene);
+}
+
 static void test_a_joined_scene_has_the_fields_of_its_parts(void **state)
 {
     (void)state;
@@ -185,6 +198,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_a_node_names_a_field_its_window_and_its_length),
         cmocka_unit_test(test_the_samples_beside_a_detached_header_are_files_of_the_scene),
+        cmocka_unit_test(test_a_field_that_its_node_flattens_is_left_out_with_a_warning),
         cmocka_unit_test(test_a_joined_scene_has_the_fields_of_its_parts),
         cmocka_unit_test(test_what_a_density_does_not_say_right_is_refused_with_its_name),
         cmocka_unit_test(test_a_window_upside_down_is_refused),

@@ -162,24 +162,38 @@ static void test_more_samples_than_memory_should_go_for_are_refused(void **state
     assert_refused(&v, &window, NOOK_E_FORMAT, "along an axis");
 }
 
-static void test_a_scene_has_no_more_samples_than_one_field_may_have(void **state)
+/* So many fields of so many samples along each axis fit into a scene, and the next one is refused in one line. */
+static void expect_full(uint32_t count, uint32_t side, const char *words)
 {
-    (void)state;
     char path[] = "many.gltf";
     nook_scene scene = { .path = path };
-    const nook_medium half = { { 512, 512, 512 }, { 1, 1, 1 }, NULL };
+    const nook_medium medium = { { side, side, side }, { 1, 1, 1 }, NULL };
     const nook_matrix at = nook_matrix_identity();
     nook_log_capture capture;
     nook_log_capture_begin(&capture);
-    assert_int_equal(nook_scene_add_density(&scene, "a", &half, &at), NOOK_OK);
-    assert_int_equal(nook_scene_add_density(&scene, "b", &half, &at), NOOK_OK);
-    assert_int_equal(nook_scene_add_density(&scene, "c", &half, &at), NOOK_E_FORMAT);
+    for (uint32_t i = 0; i < count; i++)
+        assert_int_equal(nook_scene_add_density(&scene, "a", &medium, &at), NOOK_OK);
+    assert_int_equal(capture.count, 0);
+    assert_int_equal(nook_scene_add_density(&scene, "b", &medium, &at), NOOK_E_FORMAT);
     nook_log_capture_end();
-    assert_non_null(strstr(capture.text, "make them coarser"));
-    assert_int_equal(scene.density_count, 2);
+    assert_int_equal(capture.count, 1);
+    assert_non_null(strstr(capture.text, words));
+    assert_int_equal(scene.density_count, count);
     for (uint32_t i = 0; i < scene.density_count; i++)
         free(scene.densities[i].name);
     free(scene.densities);
+}
+
+static void test_a_scene_has_no_more_samples_than_one_field_may_have(void **state)
+{
+    (void)state;
+    expect_full(2, 512, "make them coarser");
+}
+
+static void test_a_scene_has_no_more_fields_than_it_has_room_for(void **state)
+{
+    (void)state;
+    expect_full(NOOK_SCENE_DENSITIES_MAX, 1, "more than 64 densities");
 }
 
 int main(void)
@@ -195,6 +209,7 @@ int main(void)
         cmocka_unit_test(test_vectors_and_sides_without_measure_are_refused),
         cmocka_unit_test(test_more_samples_than_memory_should_go_for_are_refused),
         cmocka_unit_test(test_a_scene_has_no_more_samples_than_one_field_may_have),
+        cmocka_unit_test(test_a_scene_has_no_more_fields_than_it_has_room_for),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

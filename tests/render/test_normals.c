@@ -29,24 +29,13 @@ static void make_directions(float (*out)[4])
 
 static void test_octahedral_round_trip_is_exact_on_axes_and_close_elsewhere(void **state)
 {
-    nook_gpu *gpu = test_gpu_of(state);
     float(*in)[4] = malloc(DIRECTIONS * sizeof *in), (*out)[4] = malloc(DIRECTIONS * sizeof *out);
-    nook_buffer buffers[2];
-    nook_program program;
     make_directions(in);
-    assert_int_equal(nook_buffer_create(gpu, in, DIRECTIONS * sizeof *in, &buffers[0]), NOOK_OK);
-    assert_int_equal(nook_buffer_create(gpu, NULL, DIRECTIONS * sizeof *in, &buffers[1]), NOOK_OK);
-    assert_int_equal(nook_program_compute(gpu, "tests/render/octahedral.comp.glsl", "", &program), NOOK_OK);
-    nook_bind_storage(gpu, 0, buffers[0]);
-    nook_bind_storage(gpu, 1, buffers[1]);
-    nook_dispatch(gpu, program, nook_groups(DIRECTIONS, 64), 1, 1);
-    nook_buffer_read(gpu, buffers[1], 0, out, DIRECTIONS * sizeof *out);
+    test_gpu_map(test_gpu_of(state), "tests/render/octahedral.comp.glsl", in, sizeof *in, out, sizeof *out, DIRECTIONS);
     for (int i = 0; i < DIRECTIONS; i++) {
         for (int k = 0; k < 3; k++)
             assert_true(i < 6 ? out[i][k] == in[i][k] : fabsf(out[i][k] - in[i][k]) < 1e-4f);
     }
-    nook_buffer_destroy(gpu, &buffers[0]);
-    nook_buffer_destroy(gpu, &buffers[1]);
     free(in);
     free(out);
 }

@@ -22,28 +22,17 @@ static double srgb(double c)
 
 static void test_srgb_is_never_off_by_a_quarter_of_a_step_of_eight_bits(void **state)
 {
-    nook_gpu *gpu = test_gpu_of(state);
     float *in = malloc(STEPS * sizeof *in), *out = malloc(STEPS * sizeof *out);
-    nook_buffer buffers[2];
-    nook_program program;
     for (int i = 0; i < STEPS; i++) { /* even in what is seen: many of the dark ones */
         double x = i / (STEPS - 1.0);
         in[i] = (float)(x * x * x);
     }
-    assert_int_equal(nook_buffer_create(gpu, in, STEPS * sizeof *in, &buffers[0]), NOOK_OK);
-    assert_int_equal(nook_buffer_create(gpu, NULL, STEPS * sizeof *out, &buffers[1]), NOOK_OK);
-    assert_int_equal(nook_program_compute(gpu, "tests/render/tone.comp.glsl", "", &program), NOOK_OK);
-    nook_bind_storage(gpu, 0, buffers[0]);
-    nook_bind_storage(gpu, 1, buffers[1]);
-    nook_dispatch(gpu, program, nook_groups(STEPS, 64), 1, 1);
-    nook_buffer_read(gpu, buffers[1], 0, out, STEPS * sizeof *out);
+    test_gpu_map(test_gpu_of(state), "tests/render/tone.comp.glsl", in, sizeof *in, out, sizeof *out, STEPS);
     assert_true(out[0] == 0.0f);
     for (int i = 0; i < STEPS; i++) {
         if (!(fabs(out[i] - srgb(in[i])) < 1.0 / 1020.0))
             fail_msg("sRGB of %.8g is %.6f, not %.6f", in[i], out[i], srgb(in[i]));
     }
-    nook_buffer_destroy(gpu, &buffers[0]);
-    nook_buffer_destroy(gpu, &buffers[1]);
     free(in);
     free(out);
 }

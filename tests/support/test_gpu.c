@@ -1,5 +1,11 @@
 #include "tests/support/test_gpu.h"
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
 #include <stdlib.h>
+
+#include <cmocka.h>
 
 const char *test_gpu_root(void)
 {
@@ -55,4 +61,20 @@ int test_gpu_teardown(void **state)
 nook_gpu *test_gpu_of(void **state)
 {
     return ((test_gpu *)*state)->gpu;
+}
+
+void test_gpu_map(nook_gpu *gpu, const char *shader, const void *in, size_t in_element, void *out, size_t out_element,
+                  size_t count)
+{
+    nook_program program;
+    nook_buffer buffers[2];
+    assert_int_equal(nook_program_compute(gpu, shader, "", &program), NOOK_OK);
+    assert_int_equal(nook_buffer_create(gpu, in, count * in_element, &buffers[0]), NOOK_OK);
+    assert_int_equal(nook_buffer_create(gpu, NULL, count * out_element, &buffers[1]), NOOK_OK);
+    for (uint32_t i = 0; i < 2; i++)
+        nook_bind_storage(gpu, i, buffers[i]);
+    nook_dispatch(gpu, program, nook_groups((uint32_t)count, 64), 1, 1);
+    nook_buffer_read(gpu, buffers[1], 0, out, count * out_element);
+    for (int i = 0; i < 2; i++)
+        nook_buffer_destroy(gpu, &buffers[i]);
 }

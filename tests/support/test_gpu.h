@@ -25,3 +25,10 @@ void test_gpu_destroy(test_gpu *test);
 int test_gpu_setup(void **state);
 int test_gpu_teardown(void **state);
 nook_gpu *test_gpu_of(void **state);
+
+/**
+ * Runs a compute shader of 64 invocations a group over a list: `in` is storage block 0, `out` block 1. Fails the test when it cannot.
+ * @param count  of elements of both
+ */
+void test_gpu_map(nook_gpu *gpu, const char *shader, const void *in, size_t in_element, void *out, size_t out_element,
+                  size_t count);
