@@ -22,7 +22,7 @@ typedef struct play_options {
     nook_option_size size;
     nook_backend backend;
     double from;
-    int32_t frames;
+    int32_t frames, frame_rate;
     bool cpu;
     char default_replay[NOOK_OPTION_PATH_MAX], default_cache[NOOK_OPTION_PATH_MAX];
 } play_options;
@@ -31,6 +31,7 @@ typedef struct play_options {
 typedef struct frame_times {
     double *ms;
     size_t count, most;
+    size_t sized[NOOK_PICTURE_FIT_STEPS]; /* of the count, in each size of the picture */
 } frame_times;
 
 static bool read_options(const nook_app *app, int argc, char **argv, play_options *out, int *out_exit_code)
@@ -47,6 +48,8 @@ static bool read_options(const nook_app *app, int argc, char **argv, play_option
         nook_option_row_size(&out->size, "of the pictures in pixels; default 640x360"),
         nook_option_row_from(&out->from, "let so much of the replay pass before the first picture"),
         nook_option_row_int("frames", &out->frames, 1, INT32_MAX, "timed; default: to the end of the replay"),
+        nook_option_row_int("frame-rate", &out->frame_rate, 1, 1000,
+                            "the picture gets smaller for so many frames a second, and is stretched to --size"),
         nook_option_row_cpu(&out->cpu),
         nook_option_row_backend(&out->backend),
         nook_option_row_cache(&out->cache, "where baked volumes are kept; default: cache/ of Nook"),
@@ -86,8 +89,10 @@ static nook_result time_frames(nook_play_window *window, const play_options *opt
         double start = clock();
         result = nook_play_window_frame(window, &goes_on);
         nook_gpu_finish(window->stage.gpu);
-        if (result == NOOK_OK && i >= 0)
-            out->ms[out->count++] = clock() - start;
+        if (result != NOOK_OK || i < 0)
+            continue;
+        out->ms[out->count++] = clock() - start;
+        out->sized[window->picture_fit.step]++;
     }
     return result;
 }
@@ -126,6 +131,16 @@ static void print_times(frame_times *times, double from, bool cpu)
     print_row("all", times->ms, times->count, cpu);
 }
 
+static void print_sizes(const nook_play_window *window, const frame_times *times)
+{
+    const nook_picture_fit *fit = &window->picture_fit;
+    printf("\nsize of the picture for %.0f frames a second, along each side:", window->frame_rate);
+    for (uint32_t i = 0; i < NOOK_PICTURE_FIT_STEPS; i++)
+        printf(" %.1f %.1f %%%s", nook_picture_fit_scale(&(nook_picture_fit){ .step = i }),
+               100.0 * (double)times->sized[i] / (double)times->count, i + 1 < NOOK_PICTURE_FIT_STEPS ? "," : "");
+    printf("; %u changes\n", fit->changes);
+}
+
 static void print_stream(const nook_stream *stream)
 {
     char line[160];
@@ -155,6 +170,8 @@ static nook_result run(nook_play_window *window, const play_options *options)
                            options->replay);
     if (result == NOOK_OK)
         print_times(&times, options->from, options->cpu);
+    if (result == NOOK_OK && options->frame_rate > 0)
+        print_sizes(window, &times);
     if (result == NOOK_OK && window->stage.stream)
         print_stream(window->stage.stream);
     free(times.ms);
@@ -182,7 +199,8 @@ int nook_bench_run_play(const nook_app *app, int argc, char **argv)
         .cache = options.cache,
         .pictures = ".",
         .from_seconds = options.from,
-        .frame_seconds = frame_seconds
+        .frame_seconds = frame_seconds,
+        .frame_rate = options.frame_rate
     };
     nook_result result = nook_play_window_open(app->root, &desc, window);
     if (result == NOOK_OK) {

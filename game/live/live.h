@@ -58,6 +58,8 @@ double nook_live_names_bottom(nook_live *live, double width);
 nook_result nook_live_draw(nook_live *live, const nook_camera *camera);
 /** Copies the picture to the window's framebuffer, stretched, with the overlay over it; the context's present shows it. */
 nook_result nook_live_present(nook_live *live, uint32_t width, uint32_t height);
+/** The same for nobody to see: what a frame costs without a window. @return NOOK_E_MEMORY, NOOK_E_RANGE, NOOK_E_DEVICE */
+nook_result nook_live_present_unseen(nook_live *live, uint32_t width, uint32_t height);
 /** The same into memory: RGB, top row first. @param out_rgb width * height * 3 bytes @return NOOK_E_MEMORY, NOOK_E_RANGE, NOOK_E_DEVICE */
 nook_result nook_live_picture(nook_live *live, uint32_t width, uint32_t height, uint8_t *out_rgb);
 

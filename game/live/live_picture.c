@@ -57,11 +57,15 @@ static nook_result fit_shot(nook_live *live, uint32_t width, uint32_t height)
     return result == NOOK_OK ? nook_framebuffer_create(gpu, &t->shot, 1, (nook_texture){ 0 }, &t->shot_target) : result;
 }
 
-nook_result nook_live_picture(nook_live *live, uint32_t width, uint32_t height, uint8_t *out_rgb)
+nook_result nook_live_present_unseen(nook_live *live, uint32_t width, uint32_t height)
 {
     nook_result result = fit_shot(live, width, height);
-    if (result == NOOK_OK)
-        result = show_on(live, live->targets.shot_target);
+    return result == NOOK_OK ? show_on(live, live->targets.shot_target) : result;
+}
+
+nook_result nook_live_picture(nook_live *live, uint32_t width, uint32_t height, uint8_t *out_rgb)
+{
+    nook_result result = nook_live_present_unseen(live, width, height);
     if (result != NOOK_OK)
         return result;
     nook_texture_read(live->stage->gpu, live->targets.shot, GL_RGB, GL_UNSIGNED_BYTE, out_rgb,

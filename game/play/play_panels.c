@@ -88,8 +88,9 @@ static uint32_t tell_state(const nook_play_window *window, const nook_session_vi
     if (window->preferences.frame_times) {
         double median = nook_frame_pacing_quantile(&window->pacing, 0.5);
         out[count].colour = white;
-        snprintf(out[count++].text, STATE_SIZE, "%.1f ms a frame (%.0f a second), 99 %% within %.1f ms", median,
-                 median > 0.0 ? 1000.0 / median : 0.0, nook_frame_pacing_quantile(&window->pacing, 0.99));
+        snprintf(out[count++].text, STATE_SIZE, "%.1f ms a frame (%.0f a second), 99 %% within %.1f ms, %u x %u",
+                 median, median > 0.0 ? 1000.0 / median : 0.0, nook_frame_pacing_quantile(&window->pacing, 0.99),
+                 window->stage.width, window->stage.height);
     }
     return count;
 }

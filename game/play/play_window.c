@@ -5,6 +5,7 @@
 #include "engine/core/log.h"
 #include "game/exposure.h"
 #include "game/play/play_panels.h"
+#include "game/play/play_picture.h"
 #include "game/play/play_reload.h"
 #include "game/stage_settings.h"
 #include "game/stream_volumes.h"
@@ -22,12 +23,6 @@ static nook_result read_settings(nook_play_window *w, const char *given)
 {
     snprintf(w->settings_path, sizeof w->settings_path, "%s", given ? given : w->play.level->settings);
     return nook_stage_settings_read(w->settings_path, &w->settings);
-}
-
-static uint32_t picture_size(const nook_play_window *w, uint32_t pixels)
-{
-    uint32_t size = pixels >> w->preferences.picture_scale;
-    return size > 0 ? size : 1;
 }
 
 static nook_result open_stage(nook_play_window *w, const char *root, const nook_play_window_desc *desc)
@@ -114,6 +109,7 @@ nook_result nook_play_window_open(const char *root, const nook_play_window_desc 
     nook_play_window *w = out_window;
     memset(w, 0, sizeof *w);
     w->frame_seconds = desc->capture ? 1.0 / captured_rate : desc->frame_seconds;
+    w->frame_rate = desc->frame_rate;
     w->driven = desc->driven;
     w->captures = desc->capture != NULL;
     w->frames_left = desc->frames;
@@ -161,6 +157,8 @@ nook_result nook_play_window_close(nook_play_window *w)
         result = result == NOOK_OK ? captured : result;
     }
     nook_live_destroy(w->live);
+    if (w->stage.gpu)
+        nook_picture_time_release(&w->picture_time, w->stage.gpu);
     nook_stage_close(&w->stage);
     memset(w, 0, sizeof *w);
     return result;
@@ -193,12 +191,13 @@ static void capture_mouse(nook_play_window *w, const nook_input *input)
 
 /* ---- Time -------------------------------------------------------------------------------------------------------- */
 
-/* Seconds since the last frame; long ones are cut, so that what follows a halt is no fit of ticks. */
+/* Seconds since the last frame. */
 static double take_time(nook_play_window *w)
 {
     double now = nook_clock_ms(), ms = now - w->clock_ms;
     w->clock_ms = now;
     nook_frame_pacing_add(&w->pacing, ms);
+    nook_play_picture_learn(w, ms, w->went_on);
     return w->frame_seconds > 0.0 ? w->frame_seconds : ms / 1000.0;
 }
 
@@ -208,6 +207,7 @@ static bool has_run_out(const nook_play_window *w)
     return !w->has_window && !w->driven && (nook_play_is_free(&w->play) || nook_play_is_beyond_end(&w->play));
 }
 
+/* Long frames are cut, so that what follows a halt is no fit of ticks. */
 static nook_result run_ticks(nook_play_window *w, double seconds)
 {
     const double step = NOOK_PHYSICS_STEP;
@@ -247,19 +247,12 @@ static void draw_panels(nook_play_window *w)
         nook_play_draw_help(w, overlay);
 }
 
-static nook_result present(nook_play_window *w)
+/* Without a window nobody sees it, but who asks for a rate wants the same work done for it. */
+static nook_result show(nook_play_window *w)
 {
-    nook_result result = nook_live_present(w->live, w->width, w->height);
-    nook_context_present(w->stage.context);
-    return result;
-}
-
-static nook_result fit_picture(nook_play_window *w)
-{
-    uint32_t width = picture_size(w, w->width), height = picture_size(w, w->height);
-    if (width == w->stage.width && height == w->stage.height)
-        return NOOK_OK;
-    return nook_stage_set_size(&w->stage, width, height);
+    if (w->has_window)
+        return nook_live_present(w->live, w->width, w->height);
+    return w->frame_rate > 0.0 ? nook_live_present_unseen(w->live, w->width, w->height) : NOOK_OK;
 }
 
 /* A pointer on its way to a panel neither looks around nor takes what it clicks at. */
@@ -300,14 +293,18 @@ static void look_nowhere(nook_play_window *w)
 /* The stage's frame_index stays as it is: nothing averages noise over time, so that another one in each frame would boil. */
 static nook_result draw(nook_play_window *w)
 {
-    nook_result result = fit_picture(w);
+    nook_result result = nook_play_picture_fit(w);
     nook_play_take_changes(w);
     if (w->has_window || w->captures)
         draw_panels(w);
+    nook_picture_time_begin(&w->picture_time, w->stage.gpu);
     if (result == NOOK_OK)
         result = draw_scene(w);
+    if (result == NOOK_OK)
+        result = show(w);
+    nook_picture_time_end(&w->picture_time, w->stage.gpu);
     if (result == NOOK_OK && w->has_window)
-        result = present(w);
+        nook_context_present(w->stage.context);
     return result;
 }
 
@@ -335,6 +332,7 @@ nook_result nook_play_window_frame(nook_play_window *w, bool *out_goes_on)
     bool goes_on = standing == NOOK_PLAY_GOES_ON || (standing == NOOK_PLAY_PAUSED && w->restart);
     nook_result result = goes_on ? run_ticks(w, seconds) : NOOK_OK;
     keep_picture(w, !goes_on || hidden);
+    w->went_on = goes_on && !hidden;
     if (result == NOOK_OK && !hidden)
         result = draw(w);
     nook_play_tell(w);

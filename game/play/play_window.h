@@ -14,6 +14,8 @@
 #include "game/live/settings_reload.h"
 #include "game/live/shader_reload.h"
 #include "game/play/controls.h"
+#include "game/play/picture_fit.h"
+#include "game/play/picture_time.h"
 #include "game/play/play.h"
 #include "game/settings/settings_file.h"
 #include "game/stage.h"
@@ -33,6 +35,8 @@ typedef struct nook_play_window_desc {
     uint32_t frames;      /**< Pictures until it ends; 0: no such end. */
     bool driven;          /**< Who calls drives it: neither window, replay nor pilot is needed. */
     double frame_seconds; /**< > 0: every frame takes this long. 0: what the clock says. */
+    double
+        frame_rate; /**< > 0: the picture gets smaller for so many frames a second; 0: in a window, as preferences say. */
 } nook_play_window_desc;
 
 /** How long frames took, newest at (next - 1). */
@@ -66,8 +70,11 @@ typedef struct nook_play_window {
     nook_preferences preferences, kept, drawn; /**< Now, as they are on disk, and as the last picture was drawn with. */
     char preferences_path[1024];
     char settings_path[1024]; /**< "": as it comes. */
-    double frame_seconds;
+    double frame_seconds, frame_rate;
     double clock_ms, left; /**< At the last frame; seconds that no tick has used yet. */
+    nook_picture_fit picture_fit;
+    nook_picture_time picture_time;
+    bool went_on; /**< The last frame had ticks and was drawn. */
     nook_frame_pacing pacing;
     char trouble
         [1024]; /**< Yours to set: what is wrong with code that was to be loaded; stands on the screen. "": nothing. */

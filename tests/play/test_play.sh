@@ -152,6 +152,15 @@ test_a_bench_of_a_recorded_game_draws_its_frames_and_ends_with_it() {
     assert_holds "$said" "$tmp/nothing.replay"
 }
 
+test_a_bench_of_a_game_with_a_rate_says_how_large_its_pictures_were() {
+    local said
+    head -n 12 $house.replay >"$tmp/rate.replay"
+    said=$("$NOOK_PROGRAM" bench play --backend osmesa --size 320x180 --frames 30 --frame-rate 1000 \
+        --replay "$tmp/rate.replay" 2>/dev/null)
+    grep -Eq '^size of the picture for 1000 frames a second, along each side: 1\.0 .* 0\.5 [1-9][0-9.]* %; [1-9] changes$' <<<"$said"
+    grep -q '320 x 180' <<<"$said"
+}
+
 test_an_interrupted_game_writes_its_recording_and_says_how_far_it_came() {
     local id code=0 tries=600
     printf 'wait 1e9\n' >"$tmp/long.pilot"

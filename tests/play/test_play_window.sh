@@ -57,6 +57,27 @@ test_preferences_last_from_one_game_to_the_next() {
     rm "$tmp/cache/preferences.txt"
 }
 
+# drawn_with: takes a picture. Pixels along the first side of the frame that it was made of; 0 while it is not written.
+drawn_with() {
+    press F12; sleep 0.5
+    [ -e "$tmp/shots/nook_0001.settings" ] || { echo 0; return; }
+    sed -n 's/^# \([0-9]*\) x [0-9]* pixels.*/\1/p' "$(printf '%s\n' "$tmp"/shots/*.settings | tail -n 1)"
+}
+is_smaller() { local drawn; drawn=$(drawn_with); [ "$drawn" -ge 320 ] && [ "$drawn" -lt 640 ]; }
+is_whole() { [ "$(drawn_with)" -eq 640 ]; }
+
+test_the_picture_gets_smaller_for_the_rate_that_is_wanted_and_fills_the_window() {
+    export -f drawn_with is_smaller is_whole
+    rm -rf "$tmp/shots"
+    printf 'frame_rate = 120\n' >"$tmp/cache/preferences.txt" # more than software draws of such a size
+    in_game 'wait_for 60 is_smaller' --size 640x360 --out "$tmp/shots"
+    [ "$(identify -format '%wx%h\n' "$tmp"/shots/*.png | sort -u)" = 640x360 ]
+    rm -rf "$tmp/shots"
+    printf 'frame_rate = 0\n' >"$tmp/cache/preferences.txt"
+    in_game 'sleep 3; wait_for 30 is_whole; sleep 1; is_whole' --size 640x360 --out "$tmp/shots"
+    rm "$tmp/cache/preferences.txt"
+}
+
 test_preferences_that_cannot_be_kept_are_one_warning_and_the_game_ends_as_it_did() {
     echo 'no folder' >"$tmp/no_folder"
     in_game '
