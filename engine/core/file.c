@@ -115,38 +115,89 @@ static int check_replaceable(const char *path)
     return S_ISDIR(info.st_mode) ? EISDIR : ENOTSUP;
 }
 
-int nook_file_try_write(const char *path, const void *bytes, size_t size)
-{
+/* What is written beside a file, to take its place. */
+typedef struct replacement {
     char target[PATH_CAPACITY], temporary[PATH_CAPACITY];
+    int descriptor;
+} replacement;
+
+/* @return 0, or the errno that says why not */
+static int begin_replacement(const char *path, replacement *out)
+{
     int refused = check_replaceable(path);
     if (refused != 0)
         return refused;
-    if (!follow_links(path, target))
+    if (!follow_links(path, out->target))
         return ENAMETOOLONG;
-    int length = snprintf(temporary, sizeof temporary, "%s.%ld.tmp", target, (long)getpid());
-    if (length < 0 || (size_t)length >= sizeof temporary)
+    int length = snprintf(out->temporary, sizeof out->temporary, "%s.%ld.tmp", out->target, (long)getpid());
+    if (length < 0 || (size_t)length >= sizeof out->temporary)
         return ENAMETOOLONG;
-    int descriptor = open(temporary, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-    if (descriptor < 0)
-        return errno;
-    bool written = write_all(descriptor, bytes, size);
-    int reason = errno;
-    if (close(descriptor) != 0 && written) {
-        written = false;
+    out->descriptor = open(out->temporary, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+    return out->descriptor < 0 ? errno : 0;
+}
+
+/* Once it is closed. @param reason  0: it is whole @return 0, or the errno that says why there is none */
+static int end_replacement(const replacement *r, int reason)
+{
+    if (reason == 0 && rename(r->temporary, r->target) != 0)
         reason = errno;
-    }
-    if (written && rename(temporary, target) == 0)
-        return 0;
-    if (written)
-        reason = errno;
-    unlink(temporary);
+    if (reason != 0)
+        unlink(r->temporary);
     return reason;
+}
+
+int nook_file_try_write(const char *path, const void *bytes, size_t size)
+{
+    replacement r;
+    int reason = begin_replacement(path, &r);
+    if (reason != 0)
+        return reason;
+    if (!write_all(r.descriptor, bytes, size))
+        reason = errno;
+    if (close(r.descriptor) != 0 && reason == 0)
+        reason = errno;
+    return end_replacement(&r, reason);
+}
+
+static nook_result tell_written(const char *path, int reason)
+{
+    return reason == 0 ? NOOK_OK : nook_fail(NOOK_E_IO, "%s: cannot write: %s", path, strerror(reason));
 }
 
 nook_result nook_file_write(const char *path, const void *bytes, size_t size)
 {
-    int reason = nook_file_try_write(path, bytes, size);
-    return reason == 0 ? NOOK_OK : nook_fail(NOOK_E_IO, "%s: cannot write: %s", path, strerror(reason));
+    return tell_written(path, nook_file_try_write(path, bytes, size));
+}
+
+/* @return 0, or the errno that says why not all of it is there */
+static int close_text(FILE *stream)
+{
+    errno = 0;
+    bool whole = fflush(stream) == 0 && !ferror(stream);
+    int reason = whole ? 0 : errno ? errno : EIO;
+    if (fclose(stream) != 0 && whole)
+        reason = errno;
+    return reason;
+}
+
+nook_result nook_file_write_text(const char *path, nook_file_print print, const void *user)
+{
+    replacement r;
+    int reason = begin_replacement(path, &r);
+    if (reason != 0)
+        return tell_written(path, reason);
+    FILE *stream = fdopen(r.descriptor, "w");
+    if (!stream) {
+        reason = errno;
+        close(r.descriptor);
+        return tell_written(path, end_replacement(&r, reason));
+    }
+    nook_result result = print(user, stream);
+    reason = close_text(stream);
+    if (result == NOOK_OK)
+        return tell_written(path, end_replacement(&r, reason));
+    end_replacement(&r, ECANCELED);
+    return result;
 }
 
 nook_result nook_file_copy(const char *from, const char *to)

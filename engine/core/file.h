@@ -3,6 +3,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -32,6 +33,15 @@ void nook_file_free(nook_file *file); /**< NULL and zeroed files are allowed. */
 nook_result nook_file_write(const char *path, const void *bytes, size_t size);
 /** The same without a line in the log, for what may fail. @return 0, or the errno that says why not */
 int nook_file_try_write(const char *path, const void *bytes, size_t size);
+
+/** Prints a text. @return as it likes, logged */
+typedef nook_result (*nook_file_print)(const void *user, FILE *stream);
+/**
+ * Writes what is printed, as nook_file_write does. Printing into memory first (open_memstream) would not do: glibc's does not tell when
+ * it has run out of it, and a text that broke off would take the file's place.
+ * @return what `print` returns; NOOK_E_IO. `path` is as it was before then
+ */
+nook_result nook_file_write_text(const char *path, nook_file_print print, const void *user);
 
 /** Copies a file, as nook_file_read and nook_file_write do. @return as these */
 nook_result nook_file_copy(const char *from, const char *to);

@@ -274,18 +274,25 @@ nook_result nook_report_document_check(const char *path)
     return result == NOOK_OK ? nook_file_probe(path) : result;
 }
 
-static nook_result put_document(FILE *out, const char *old, const char *path, const nook_results *results,
-                                const char *command)
+/* What a document is made of. */
+typedef struct document {
+    const char *path, *old; /* what stands in it now */
+    const nook_results *results;
+    const char *command;
+} document;
+
+static nook_result put_document(const void *user, FILE *out)
 {
+    const document *d = user;
     const char *begin, *end;
-    nook_result result = find_marks(path, old, &begin, &end);
+    nook_result result = find_marks(d->path, d->old, &begin, &end);
     if (result != NOOK_OK)
         return result;
-    fwrite(old, 1, (size_t)(begin - old), out);
+    fwrite(d->old, 1, (size_t)(begin - d->old), out);
     fputs(BEGIN_LINE "\n\n", out);
-    if (results->row_count) {
-        put_head(out, results, command);
-        result = put_views(out, results);
+    if (d->results->row_count) {
+        put_head(out, d->results, d->command);
+        result = put_views(out, d->results);
     } else {
         fputs("Nothing has been measured.\n", out);
     }
@@ -296,24 +303,11 @@ static nook_result put_document(FILE *out, const char *old, const char *path, co
 nook_result nook_report_document_write(const nook_results *results, const char *command, const char *path)
 {
     nook_file old;
-    char *text = NULL;
-    size_t size = 0;
     nook_result result = nook_file_read(path, &old);
     if (result != NOOK_OK)
         return result;
-    FILE *out = open_memstream(&text, &size);
-    if (out) {
-        result = put_document(out, (const char *)old.bytes, path, results, command);
-        bool failed = ferror(out) != 0;
-        failed |= fclose(out) != 0;
-        if (failed && result == NOOK_OK)
-            result = nook_fail(NOOK_E_MEMORY, "%s: no memory for the tables", path);
-    } else {
-        result = nook_fail(NOOK_E_MEMORY, "%s: no memory for the tables", path);
-    }
-    if (result == NOOK_OK)
-        result = nook_file_write(path, text, size);
-    free(text);
+    const document made = { path, (const char *)old.bytes, results, command };
+    result = nook_file_write_text(path, put_document, &made);
     nook_file_free(&old);
     return result;
 }

@@ -1,5 +1,4 @@
 #include "engine/core/file.h"
-#include "engine/core/log.h"
 #include "game/measure/report.h"
 #include "game/measure/report_internal.h"
 #include <limits.h>
@@ -104,45 +103,29 @@ static nook_result expand(FILE *out, const report_source *source, const char *te
     return NOOK_OK;
 }
 
-/* @param out_text  release with free() */
-static nook_result make_report(const report_source *source, char **out_text, size_t *out_size)
+/* A template, and what it is filled with. */
+typedef struct filled_template {
+    const report_source *source;
+    const char *text;
+} filled_template;
+
+static nook_result print(const void *user, FILE *stream)
 {
-    nook_file template;
-    char *text = NULL;
-    size_t size = 0;
-    nook_result result = read_part(source->root, "template.html", &template);
-    if (result != NOOK_OK)
-        return result;
-    FILE *out = open_memstream(&text, &size);
-    if (out) {
-        result = expand(out, source, (const char *)template.bytes);
-        bool failed = ferror(out) != 0;
-        failed |= fclose(out) != 0;
-        if (failed && result == NOOK_OK)
-            result = nook_fail(NOOK_E_MEMORY, "no memory for the report");
-    } else {
-        result = nook_fail(NOOK_E_MEMORY, "no memory for the report");
-    }
-    nook_file_free(&template);
-    if (result == NOOK_OK) {
-        *out_text = text;
-        *out_size = size;
-    } else {
-        free(text);
-    }
-    return result;
+    const filled_template *filled = user;
+    return expand(stream, filled->source, filled->text);
 }
 
 nook_result nook_report_html_write(const char *root, const nook_results *results, const char *folder,
                                    const char *command)
 {
     const report_source source = { .root = root, .folder = folder, .command = command, .results = results };
-    char path[PATH_MAX], *text;
-    size_t size;
-    nook_result result = make_report(&source, &text, &size);
+    char path[PATH_MAX];
+    nook_file template;
+    nook_result result = read_part(root, "template.html", &template);
     if (result != NOOK_OK)
         return result;
-    result = nook_file_write(nook_path_join(path, sizeof path, folder, "report.html"), text, size);
-    free(text);
+    result = nook_file_write_text(nook_path_join(path, sizeof path, folder, "report.html"), print,
+                                  &(filled_template){ &source, (const char *)template.bytes });
+    nook_file_free(&template);
     return result;
 }

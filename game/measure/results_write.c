@@ -1,5 +1,4 @@
 #include "engine/core/file.h"
-#include "engine/core/log.h"
 #include "game/measure/measure_origin.h"
 #include "game/measure/result_columns.h"
 #include <inttypes.h>
@@ -50,8 +49,9 @@ static void put_cell(FILE *out, const nook_result_column *column, const nook_res
     }
 }
 
-static void put_csv(FILE *out, const nook_results *results)
+static nook_result put_csv(const void *user, FILE *out)
 {
+    const nook_results *results = user;
     size_t count;
     const nook_result_column *columns = nook_result_row_columns(&count);
     for (size_t i = 0; i < count; i++)
@@ -65,22 +65,13 @@ static void put_csv(FILE *out, const nook_results *results)
         }
         fputs("\r\n", out);
     }
+    return NOOK_OK;
 }
 
 static nook_result write_csv(const nook_results *results, const char *folder)
 {
-    char path[4096], *text = NULL;
-    size_t size = 0;
-    FILE *out = open_memstream(&text, &size);
-    if (!out)
-        return nook_fail(NOOK_E_MEMORY, "no memory for measure.csv");
-    put_csv(out, results);
-    bool failed = ferror(out) != 0;
-    failed = fclose(out) != 0 || failed;
-    nook_result result = failed ? nook_fail(NOOK_E_MEMORY, "no memory for measure.csv")
-                                : nook_file_write(nook_path_join(path, sizeof path, folder, "measure.csv"), text, size);
-    free(text);
-    return result;
+    char path[4096];
+    return nook_file_write_text(nook_path_join(path, sizeof path, folder, "measure.csv"), put_csv, results);
 }
 
 /* ---- JSON ------------------------------------------------------------------------------------------------------- */

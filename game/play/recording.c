@@ -53,24 +53,19 @@ static void write_runs(const nook_recording *recording, FILE *stream)
     }
 }
 
+static nook_result print(const void *user, FILE *stream)
+{
+    const nook_recording *recording = user;
+    fprintf(stream, "nook recording %d\nlevel %s\nseed %u\n", RECORDING_VERSION, recording->level, recording->seed);
+    if (recording->origin != 0)
+        fprintf(stream, "origin %016llx\n", (unsigned long long)recording->origin);
+    write_runs(recording, stream);
+    return NOOK_OK;
+}
+
 nook_result nook_recording_write(const char *path, const nook_recording *recording)
 {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *stream = open_memstream(&text, &size);
-    if (stream) {
-        fprintf(stream, "nook recording %d\nlevel %s\nseed %u\n", RECORDING_VERSION, recording->level, recording->seed);
-        if (recording->origin != 0)
-            fprintf(stream, "origin %016llx\n", (unsigned long long)recording->origin);
-        write_runs(recording, stream);
-    }
-    if (!stream || fclose(stream) != 0) {
-        free(text);
-        return nook_fail(NOOK_E_MEMORY, "%s: no memory to write it", path);
-    }
-    nook_result result = nook_file_write(path, text, size);
-    free(text);
-    return result;
+    return nook_file_write_text(path, print, recording);
 }
 
 /* ---- Reading ----------------------------------------------------------------------------------------------------- */

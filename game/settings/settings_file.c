@@ -208,21 +208,22 @@ static void write_setting(const nook_settings_file *file, FILE *stream)
     write_stream(&file->stream, stream);
 }
 
+/* What nook_settings_file_write is given. */
+typedef struct commented_file {
+    const nook_settings_file *file;
+    const char *comment;
+} commented_file;
+
+static nook_result print(const void *user, FILE *stream)
+{
+    const commented_file *given = user;
+    if (given->comment)
+        write_comment(given->comment, stream);
+    write_setting(given->file, stream);
+    return NOOK_OK;
+}
+
 nook_result nook_settings_file_write(const char *path, const nook_settings_file *file, const char *comment)
 {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *stream = open_memstream(&text, &size);
-    if (stream) {
-        if (comment)
-            write_comment(comment, stream);
-        write_setting(file, stream);
-    }
-    if (!stream || fclose(stream) != 0) {
-        free(text);
-        return nook_fail(NOOK_E_MEMORY, "%s: no memory to write it", path);
-    }
-    nook_result result = nook_file_write(path, text, size);
-    free(text);
-    return result;
+    return nook_file_write_text(path, print, &(commented_file){ file, comment });
 }

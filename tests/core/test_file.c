@@ -1,4 +1,5 @@
 #include "engine/core/file.h"
+#include "engine/core/log.h"
 #include "engine/core/result.h"
 #include "tests/support/log_capture.h"
 #include "tests/support/scratch.h"
@@ -119,6 +120,23 @@ static void test_file_write_replaces_an_older_file_and_leaves_nothing_beside_it(
     assert_int_equal(count_entries(folder), 1);
 }
 
+/* In any file. @return how it was */
+static struct rlimit leave_room_for_1000_bytes(void)
+{
+    struct rlimit usual;
+    assert_int_equal(getrlimit(RLIMIT_FSIZE, &usual), 0);
+    const struct rlimit tight = { .rlim_cur = 1000, .rlim_max = usual.rlim_max };
+    signal(SIGXFSZ, SIG_IGN); /* then writing beyond the limit is an error, not a signal */
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &tight), 0);
+    return usual;
+}
+
+static void give_room_back(const struct rlimit *usual)
+{
+    setrlimit(RLIMIT_FSIZE, usual);
+    signal(SIGXFSZ, SIG_DFL);
+}
+
 static void test_file_write_that_runs_out_of_room_keeps_the_old_file(void **state)
 {
     (void)state;
@@ -129,18 +147,55 @@ static void test_file_write_that_runs_out_of_room_keeps_the_old_file(void **stat
     assert_int_equal(nook_file_write(path, "old", 3), NOOK_OK);
 
     static const char big[65536];
-    struct rlimit usual;
-    assert_int_equal(getrlimit(RLIMIT_FSIZE, &usual), 0);
-    const struct rlimit tight = { .rlim_cur = 1000, .rlim_max = usual.rlim_max };
-    void (*handler)(int) = signal(SIGXFSZ, SIG_IGN); /* then writing beyond the limit is an error, not a signal */
-    assert_int_equal(setrlimit(RLIMIT_FSIZE, &tight), 0);
+    struct rlimit usual = leave_room_for_1000_bytes();
     nook_result result = nook_file_write(path, big, sizeof big);
-    setrlimit(RLIMIT_FSIZE, &usual);
-    signal(SIGXFSZ, handler);
+    give_room_back(&usual);
 
     assert_int_equal(result, NOOK_E_IO);
     assert_non_null(strstr(logged.text, "cannot write"));
     assert_content(path, "old");
+    assert_int_equal(count_entries(folder), 1);
+}
+
+static nook_result print_numbers(const void *user, FILE *stream)
+{
+    fprintf(stream, "%d and %d\n", ((const int *)user)[0], ((const int *)user)[1]);
+    return NOOK_OK;
+}
+
+static nook_result give_up(const void *user, FILE *stream)
+{
+    print_numbers(user, stream);
+    return nook_fail(NOOK_E_FORMAT, "these are not it");
+}
+
+static nook_result print_much(const void *user, FILE *stream)
+{
+    for (int i = 0; i < 1000; i++)
+        print_numbers(user, stream);
+    return NOOK_OK;
+}
+
+static void test_a_text_that_breaks_off_is_in_no_file(void **state)
+{
+    (void)state;
+    static const int numbers[] = { 7, 8 }, others[] = { 1, 2 };
+    char folder[CAPACITY], path[CAPACITY];
+    nook_scratch_path(folder, sizeof folder, "text");
+    assert_int_equal(nook_directory_make(folder), NOOK_OK);
+    nook_path_join(path, sizeof path, folder, "numbers.txt");
+    assert_int_equal(nook_file_write_text(path, print_numbers, numbers), NOOK_OK);
+    assert_content(path, "7 and 8\n");
+    assert_int_equal(nook_file_write_text(path, give_up, others), NOOK_E_FORMAT);
+    assert_string_equal(logged.text, "these are not it");
+    assert_content(path, "7 and 8\n");
+
+    struct rlimit usual = leave_room_for_1000_bytes();
+    nook_result result = nook_file_write_text(path, print_much, others);
+    give_room_back(&usual);
+    assert_int_equal(result, NOOK_E_IO);
+    assert_non_null(strstr(logged.text, "cannot write"));
+    assert_content(path, "7 and 8\n");
     assert_int_equal(count_entries(folder), 1);
 }
 
@@ -265,6 +320,7 @@ int main(void)
         cmocka_unit_test(test_file_read_refuses_a_pipe_without_waiting),
         cmocka_unit_test(test_file_write_replaces_an_older_file_and_leaves_nothing_beside_it),
         cmocka_unit_test(test_file_write_that_runs_out_of_room_keeps_the_old_file),
+        cmocka_unit_test(test_a_text_that_breaks_off_is_in_no_file),
         cmocka_unit_test(test_file_write_over_a_directory_fails_and_leaves_it),
         cmocka_unit_test(test_file_write_refuses_what_is_no_regular_file_and_leaves_it),
         cmocka_unit_test(test_file_write_through_a_link_writes_what_it_leads_to),
