@@ -92,7 +92,6 @@ static void take_levels(const nook_volumes_desc *desc, double r_max, nook_volume
     }
 }
 
-/* Of an edited mesh the finest level is made of what it was; else all are made at once. */
 static nook_result bake_kind(const nook_volumes_desc *desc, double r_max, nook_scene_volume *volume, uint32_t place,
                              nook_volume_kind kind, bool *warned)
 {
@@ -107,21 +106,15 @@ static nook_result bake_kind(const nook_volumes_desc *desc, double r_max, nook_s
         .resolution = volume->resolution, .threads = desc->threads, .kind = kind, .alphas = &alphas
     };
     const nook_bake_before older = { &triangles_before, &alphas_before };
-    const bool edited = before && triangles_before.index_count;
+    const nook_bake_before *edited = before && triangles_before.index_count ? &older : NULL;
     nook_bake bakes[NOOK_VOXELIZE_LEVELS] = { { .bytes = NULL } };
-    uint32_t levels = levels_of(desc, volume);
-    nook_result result = NOOK_OK;
-    if (edited || levels == 1) {
-        result =
-            nook_bake_cached_again(desc->cache_dir, volume->name, &triangles, &how, edited ? &older : NULL, &bakes[0]);
-        levels &= ~1u;
-    }
-    if (result == NOOK_OK && levels)
-        result = nook_bake_cached_levels(desc->cache_dir, volume->name, &triangles, &how, levels, bakes);
-    if (result != NOOK_OK) {
-        nook_bake_free(&bakes[0]);
+    const uint32_t levels = levels_of(desc, volume);
+    nook_result result =
+        levels == 1
+            ? nook_bake_cached_again(desc->cache_dir, volume->name, &triangles, &how, edited, &bakes[0])
+            : nook_bake_cached_levels_again(desc->cache_dir, volume->name, &triangles, &how, levels, edited, bakes);
+    if (result != NOOK_OK)
         return result;
-    }
     take_levels(desc, r_max, kind, bakes, volume);
     return nook_volumes_check_kept(desc, &volume->bakes[kind], warned);
 }

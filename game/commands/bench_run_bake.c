@@ -6,6 +6,7 @@
 #include "game/commands/benches.h"
 #include "game/option_rows.h"
 #include "game/volumes.h"
+#include "modules/bake/brick_grid.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -119,6 +120,7 @@ static double resident_mib(void)
 static bool same_surfels(const nook_volume *a, const nook_volume *b)
 {
     return a->info.content_hash == b->info.content_hash && a->info.occupied == b->info.occupied &&
+           memcmp(a->bricks, b->bricks, nook_brick_total(&a->info) * sizeof *a->bricks) == 0 &&
            memcmp(a->surfels, b->surfels, (size_t)a->info.occupied * sizeof *a->surfels) == 0;
 }
 
@@ -136,25 +138,35 @@ static nook_voxelize_desc describe(const bake_options *options, uint32_t resolut
                                  .memory = (size_t)options->memory * MIB };
 }
 
-/* Moves the vertex by a voxel towards the middle of the volume and bakes again, in part and whole. */
-static nook_result bake_again(const bake_mesh *mesh, const nook_voxelize_desc *desc, bake_row *row)
+/* The mesh with its vertex moved by a voxel towards the middle of the volume. @return its positions, release with free(); NULL: no memory */
+static float *move_vertex(const bake_mesh *mesh, const nook_volume_info *info)
 {
-    const nook_volume *before = &row->volume;
     const size_t size = (size_t)mesh->vertex_count * 3 * sizeof *mesh->positions;
     float *positions = malloc(size);
-    nook_volume again, whole = { .bricks = NULL };
-    if (!positions)
-        return nook_fail(NOOK_E_MEMORY, "bench: no memory for %u vertices", mesh->vertex_count);
+    if (!positions) {
+        nook_fail(NOOK_E_MEMORY, "bench: no memory for %u vertices", mesh->vertex_count);
+        return NULL;
+    }
     memcpy(positions, mesh->positions, size);
-    const uint32_t sides[3] = { before->info.width, before->info.height, before->info.depth };
+    const uint32_t sides[3] = { info->width, info->height, info->depth };
     for (int axis = 0; axis < 3; axis++) {
         float *at = &positions[3 * (size_t)mesh->moved + (size_t)axis];
-        double middle = before->info.origin[axis] + 0.5 * sides[axis] * before->info.voxel_size;
-        *at += (float)copysign(fmin(before->info.voxel_size, fabs(middle - (double)*at)), middle - (double)*at);
+        double middle = info->origin[axis] + 0.5 * sides[axis] * info->voxel_size;
+        *at += (float)copysign(fmin(info->voxel_size, fabs(middle - (double)*at)), middle - (double)*at);
     }
+    return positions;
+}
+
+/* Bakes again after the vertex was moved, in part and whole. */
+static nook_result bake_again(const bake_mesh *mesh, const nook_voxelize_desc *desc, bake_row *row)
+{
+    nook_volume again, whole = { .bricks = NULL };
+    float *positions = move_vertex(mesh, &row->volume.info);
+    if (!positions)
+        return NOOK_E_MEMORY;
     const nook_triangles was = { mesh->positions, 0, mesh->vertex_count, mesh->indices, mesh->index_count };
     const nook_triangles is = { positions, 0, mesh->vertex_count, mesh->indices, mesh->index_count };
-    const nook_voxelize_before older = { &was, NULL, before };
+    const nook_voxelize_before older = { &was, NULL, &row->volume };
     double start = nook_clock_cpu_ms();
     nook_result result = nook_voxelize_again(&is, desc, &older, &again, &row->bricks);
     row->again_ms = nook_clock_cpu_ms() - start;
@@ -165,6 +177,39 @@ static nook_result bake_again(const bake_mesh *mesh, const nook_voxelize_desc *d
         nook_volume_free(&whole);
         nook_volume_free(&again);
     }
+    free(positions);
+    return result;
+}
+
+/* The same of all levels of a pass. @param before  LEVELS of them */
+static nook_result bake_levels_again(const bake_mesh *mesh, const nook_voxelize_desc *desc, const nook_volume *before)
+{
+    const uint32_t all = (1u << LEVELS) - 1;
+    nook_volume again[NOOK_VOXELIZE_LEVELS] = { { .bricks = NULL } },
+                whole[NOOK_VOXELIZE_LEVELS] = { { .bricks = NULL } };
+    size_t bricks[NOOK_VOXELIZE_LEVELS];
+    float *positions = move_vertex(mesh, &before->info);
+    if (!positions)
+        return NOOK_E_MEMORY;
+    const nook_triangles was = { mesh->positions, 0, mesh->vertex_count, mesh->indices, mesh->index_count };
+    const nook_triangles is = { positions, 0, mesh->vertex_count, mesh->indices, mesh->index_count };
+    const nook_voxelize_before older = { &was, NULL, before };
+    double start = nook_clock_cpu_ms();
+    nook_result result = nook_voxelize_levels_again(&is, desc, all, &older, again, bricks);
+    const double again_ms = nook_clock_cpu_ms() - start;
+    start = nook_clock_cpu_ms();
+    if (result == NOOK_OK)
+        result = nook_voxelize_levels(&is, desc, all, whole);
+    const double ms = nook_clock_cpu_ms() - start;
+    for (int i = 0; i < LEVELS; i++) {
+        if (result == NOOK_OK && !same_surfels(&again[i], &whole[i]))
+            result = nook_fail(NOOK_E_FORMAT, "bench: a part of level %d baked again differs from the whole", i);
+        nook_volume_free(&again[i]);
+        nook_volume_free(&whole[i]);
+    }
+    if (result == NOOK_OK)
+        printf("  all %d again: %.0f ms, whole %.0f ms; bricks %zu %zu %zu %zu\n", LEVELS, again_ms, ms, bricks[3],
+               bricks[2], bricks[1], bricks[0]);
     free(positions);
     return result;
 }
@@ -202,6 +247,8 @@ static nook_result time_pass(const bake_options *options, const bake_mesh *mesh,
     printf("\n");
     if (!same_surfels(&volumes[0], &rows[LEVELS - 1].volume))
         result = nook_fail(NOOK_E_FORMAT, "bench: the finest of several levels differs from itself alone");
+    if (result == NOOK_OK)
+        result = bake_levels_again(mesh, &desc, volumes);
     for (int i = 0; i < LEVELS; i++)
         nook_volume_free(&volumes[i]);
     return result;

@@ -177,15 +177,11 @@ static nook_voxelize_desc level_of(const nook_voxelize_desc *desc, uint32_t leve
     return of_level;
 }
 
-/* Makes levels of surfels and keeps them. @return what is made in out_bakes also when it fails */
-static nook_result make_levels(const char *cache_dir, const nook_triangles *triangles, const nook_voxelize_desc *desc,
-                               uint32_t levels, nook_bake *out_bakes)
+/* Encodes and keeps what was made since `start`, and frees it. @return what is made in out_bakes also when it fails */
+static nook_result keep_levels(const char *cache_dir, uint32_t levels, double start, nook_volume *volumes,
+                               nook_bake *out_bakes)
 {
-    nook_volume volumes[NOOK_VOXELIZE_LEVELS];
-    double start = nook_clock_ms();
-    nook_result result = nook_voxelize_levels(triangles, desc, levels, volumes);
-    if (result != NOOK_OK)
-        return result;
+    nook_result result = NOOK_OK;
     for (uint32_t level = 0; level < NOOK_VOXELIZE_LEVELS; level++) {
         char path[PATH_CAPACITY];
         nook_bake *bake = &out_bakes[level];
@@ -203,6 +199,46 @@ static nook_result make_levels(const char *cache_dir, const nook_triangles *tria
         }
         start = nook_clock_ms();
     }
+    return result;
+}
+
+/* Makes levels of surfels and keeps them. @return as keep_levels */
+static nook_result make_levels(const char *cache_dir, const nook_triangles *triangles, const nook_voxelize_desc *desc,
+                               uint32_t levels, nook_bake *out_bakes)
+{
+    nook_volume volumes[NOOK_VOXELIZE_LEVELS];
+    double start = nook_clock_ms();
+    nook_result result = nook_voxelize_levels(triangles, desc, levels, volumes);
+    return result == NOOK_OK ? keep_levels(cache_dir, levels, start, volumes, out_bakes) : result;
+}
+
+/* The same for those levels of which the cache has what they were. @param in_out_levels  those that are made are taken out */
+static nook_result make_levels_again(const char *cache_dir, const char *name, const nook_triangles *triangles,
+                                     const nook_voxelize_desc *desc, const nook_bake_before *before,
+                                     uint32_t *in_out_levels, nook_bake *out_bakes)
+{
+    nook_volume was[NOOK_VOXELIZE_LEVELS] = { { .bricks = NULL } }, volumes[NOOK_VOXELIZE_LEVELS];
+    size_t bricks[NOOK_VOXELIZE_LEVELS];
+    double start = nook_clock_ms();
+    uint32_t known = 0;
+    nook_result result = NOOK_OK;
+    for (uint32_t level = 0; level < NOOK_VOXELIZE_LEVELS; level++) {
+        const nook_voxelize_desc of_level = level_of(desc, level);
+        if (*in_out_levels >> level & 1 && read_before(cache_dir, name, &of_level, before, &was[level]))
+            known |= 1u << level;
+    }
+    if (known) {
+        const nook_voxelize_before older = { before->triangles, before->alphas, was };
+        result = nook_voxelize_levels_again(triangles, desc, known, &older, volumes, bricks);
+        if (result == NOOK_OK)
+            result = keep_levels(cache_dir, known, start, volumes, out_bakes);
+    }
+    for (uint32_t level = 0; level < NOOK_VOXELIZE_LEVELS; level++) {
+        if (result == NOOK_OK && known >> level & 1)
+            out_bakes[level].bricks = bricks[level];
+        nook_volume_free(&was[level]);
+    }
+    *in_out_levels &= ~known;
     return result;
 }
 
@@ -230,6 +266,13 @@ static uint32_t read_levels(const char *cache_dir, const char *name, const nook_
 nook_result nook_bake_cached_levels(const char *cache_dir, const char *name, const nook_triangles *triangles,
                                     const nook_voxelize_desc *desc, uint32_t levels, nook_bake *out_bakes)
 {
+    return nook_bake_cached_levels_again(cache_dir, name, triangles, desc, levels, NULL, out_bakes);
+}
+
+nook_result nook_bake_cached_levels_again(const char *cache_dir, const char *name, const nook_triangles *triangles,
+                                          const nook_voxelize_desc *desc, uint32_t levels,
+                                          const nook_bake_before *before, nook_bake *out_bakes)
+{
     nook_bake bakes[NOOK_VOXELIZE_LEVELS] = { { .bytes = NULL } };
     nook_result result = check_arguments(triangles);
     if (result == NOOK_OK && (levels == 0 || levels >> NOOK_VOXELIZE_LEVELS))
@@ -237,7 +280,9 @@ nook_result nook_bake_cached_levels(const char *cache_dir, const char *name, con
             nook_fail(NOOK_E_RANGE, "bake: levels %#x; there are 0 to %d, as bits", levels, NOOK_VOXELIZE_LEVELS - 1);
     if (result == NOOK_OK && desc->kind == NOOK_VOLUME_SURFEL) {
         uint32_t missing = read_levels(cache_dir, name, triangles, desc, levels, bakes);
-        if (missing)
+        if (missing && before && cache_dir)
+            result = make_levels_again(cache_dir, name, triangles, desc, before, &missing, bakes);
+        if (result == NOOK_OK && missing)
             result = make_levels(cache_dir, triangles, desc, missing, bakes);
     } else {
         for (uint32_t level = 0; level < NOOK_VOXELIZE_LEVELS && result == NOOK_OK; level++) {

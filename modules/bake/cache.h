@@ -59,6 +59,14 @@ nook_result nook_bake_cached_again(const char *cache_dir, const char *name, cons
 nook_result nook_bake_cached_levels(const char *cache_dir, const char *name, const nook_triangles *triangles,
                                     const nook_voxelize_desc *desc, uint32_t levels, nook_bake *out_bakes);
 
+/**
+ * The same, and sooner where the cache holds levels of surfels of the soup as it was before: nook_voxelize_levels_again makes the new ones of them.
+ * @param before  NULL: nothing is known
+ */
+nook_result nook_bake_cached_levels_again(const char *cache_dir, const char *name, const nook_triangles *triangles,
+                                          const nook_voxelize_desc *desc, uint32_t levels,
+                                          const nook_bake_before *before, nook_bake *out_bakes);
+
 #ifdef __cplusplus
 }
 #endif

@@ -1,6 +1,5 @@
 #include "modules/bake/edit.h"
 #include "modules/bake/alpha_hash.h"
-#include "modules/bake/brick_grid.h"
 #include "modules/bake/surfel_cut.h"
 #include <stdlib.h>
 #include <string.h>
@@ -47,19 +46,17 @@ static bool same_triangle(const soup *a, size_t t_a, const soup *b, size_t t_b)
     return same;
 }
 
-static void mark(const soup *s, const nook_grid_frame *frame, const uint32_t counts[3], size_t first, size_t end,
-                 uint8_t *bricks)
+static void mark(const soup *s, const nook_grid_frame *frame, size_t first, size_t end, uint8_t *const *bricks)
 {
-    const nook_surfel_source source = {
-        .triangles = s->triangles, .alphas = s->alphas, .frame = frame, .counts = { counts[0], counts[1], counts[2] }
-    };
+    const nook_surfel_source source = { .triangles = s->triangles, .alphas = s->alphas, .frame = frame };
     for (size_t t = first; t < end; t++)
-        nook_surfel_mark(&source, t, bricks);
+        for (uint32_t level = 0; level < NOOK_VOXELIZE_LEVELS; level++)
+            if (bricks[level])
+                nook_surfel_mark(&source, t, level, bricks[level]);
 }
 
 /* What is alike at either end of the lists has not changed; between, triangles are pairs where both have as many. */
-static void mark_changes(const soup *a, const soup *b, const nook_grid_frame *frame, const uint32_t counts[3],
-                         uint8_t *bricks)
+static void mark_changes(const soup *a, const soup *b, const nook_grid_frame *frame, uint8_t *const *bricks)
 {
     size_t least = a->count < b->count ? a->count : b->count, first = 0, last = 0;
     while (first < least && same_triangle(a, first, b, first))
@@ -67,32 +64,25 @@ static void mark_changes(const soup *a, const soup *b, const nook_grid_frame *fr
     while (last < least - first && same_triangle(a, a->count - 1 - last, b, b->count - 1 - last))
         last++;
     if (a->count != b->count) {
-        mark(a, frame, counts, first, a->count - last, bricks);
-        mark(b, frame, counts, first, b->count - last, bricks);
+        mark(a, frame, first, a->count - last, bricks);
+        mark(b, frame, first, b->count - last, bricks);
         return;
     }
     for (size_t t = first; t < a->count - last; t++)
         if (!same_triangle(a, t, b, t)) {
-            mark(a, frame, counts, t, t + 1, bricks);
-            mark(b, frame, counts, t, t + 1, bricks);
+            mark(a, frame, t, t + 1, bricks);
+            mark(b, frame, t, t + 1, bricks);
         }
 }
 
 nook_result nook_edit_find(const nook_edit_soup *before, const nook_edit_soup *after, const nook_grid_frame *frame,
-                           uint8_t *bricks, size_t *out_count)
+                           uint8_t *const bricks[NOOK_VOXELIZE_LEVELS])
 {
-    const nook_volume_info info = { .width = frame->size[0], .height = frame->size[1], .depth = frame->size[2] };
     soup a, b;
     bool opened = open_soup(before, &a);
     opened = open_soup(after, &b) && opened;
-    if (opened) {
-        uint32_t counts[3];
-        nook_brick_counts(&info, counts);
-        mark_changes(&a, &b, frame, counts, bricks);
-        *out_count = 0;
-        for (size_t i = 0; i < nook_brick_total(&info); i++)
-            *out_count += bricks[i];
-    }
+    if (opened)
+        mark_changes(&a, &b, frame, bricks);
     free(a.looks);
     free(b.looks);
     return opened ? NOOK_OK : NOOK_E_MEMORY;

@@ -15,11 +15,11 @@ typedef struct nook_edit_soup {
 
 /**
  * Sets the bytes of the bricks that triangles may lie in which are not in both soups.
- * @param frame  the grid of both @param bricks  of all of it, 0 @param out_count  how many were set
+ * @param frame  the grid of both @param bricks  of each level all of its grid, 0; NULL: it is not wanted
  * @return NOOK_E_MEMORY, not logged
  */
 nook_result nook_edit_find(const nook_edit_soup *before, const nook_edit_soup *after, const nook_grid_frame *frame,
-                           uint8_t *bricks, size_t *out_count);
+                           uint8_t *const bricks[NOOK_VOXELIZE_LEVELS]);
 
 #ifdef __cplusplus
 }

@@ -26,7 +26,6 @@ typedef struct bake {
     nook_brick *bricks;
     slab *slabs;
     worker_bins *workers;
-    const nook_surfel_before *before; /* NULL: all is made */
     atomic_bool out_of_memory;
 } bake;
 
@@ -92,60 +91,14 @@ static nook_result bake_part(bake *b, const nook_surfel_part *part, nook_surfel_
     return count != SIZE_MAX && fit_slab(b, bins, count, slab_index) ? NOOK_OK : NOOK_E_MEMORY;
 }
 
-static size_t count_bits(uint32_t bits)
-{
-    size_t count = 0;
-    for (; bits; bits &= bits - 1)
-        count++;
-    return count;
-}
-
-/* Puts the surfels of bricks that stay between those of the others, which were made. @return NOOK_E_MEMORY */
-static nook_result keep_bricks(bake *b, size_t slab_index)
-{
-    const size_t count = bricks_of_slab(b), first = slab_index * count;
-    const nook_volume *before = b->before->volume;
-    slab made = b->slabs[slab_index], joined = { .surfels = NULL };
-    size_t taken = 0;
-    bool whole = true;
-    for (size_t i = first; i < first + count && whole; i++) {
-        bool changed = b->before->changed[i];
-        const nook_brick *from = changed ? &b->bricks[i] : &before->bricks[i];
-        size_t surfels = count_bits(from->mask[0]) + count_bits(from->mask[1]);
-        memcpy(b->bricks[i].mask, from->mask, sizeof from->mask);
-        whole = surfels == 0 || reserve(&joined, joined.count + surfels);
-        if (whole && surfels)
-            memcpy(joined.surfels + joined.count, changed ? made.surfels + taken : before->surfels + from->first_surfel,
-                   surfels * sizeof *joined.surfels);
-        joined.count += surfels;
-        taken += changed ? surfels : 0;
-    }
-    free(made.surfels);
-    b->slabs[slab_index] = joined;
-    return whole ? NOOK_OK : NOOK_E_MEMORY;
-}
-
-static nook_result bake_slab(bake *b, size_t slab_index, nook_surfel_bins *bins)
-{
-    const size_t count = bricks_of_slab(b);
-    nook_surfel_part part = { .slab = (int32_t)slab_index, .end = (uint32_t)count };
-    if (!b->before)
-        return bake_part(b, &part, bins);
-    part.wanted = b->before->changed + slab_index * count;
-    while (part.first < part.end && !part.wanted[part.first])
-        part.first++;
-    while (part.first < part.end && !part.wanted[part.end - 1])
-        part.end--;
-    nook_result result = part.first < part.end ? bake_part(b, &part, bins) : NOOK_OK;
-    return result == NOOK_OK ? keep_bricks(b, slab_index) : result;
-}
-
 static void bake_slabs(void *user, size_t first, size_t last, unsigned worker)
 {
     bake *b = user;
     nook_result result = NOOK_OK;
-    for (size_t s = first; s < last && result == NOOK_OK; s++)
-        result = bake_slab(b, s, b->workers[worker].bins);
+    for (size_t s = first; s < last && result == NOOK_OK; s++) {
+        const nook_surfel_part part = { .slab = (int32_t)s, .end = (uint32_t)bricks_of_slab(b) };
+        result = bake_part(b, &part, b->workers[worker].bins);
+    }
     if (result != NOOK_OK)
         atomic_store(&b->out_of_memory, true);
 }
@@ -206,11 +159,10 @@ static nook_surfel *join_slabs(const bake *b)
 }
 
 nook_result nook_surfel_bake(const nook_triangles *triangles, const nook_voxelize_desc *desc,
-                             const nook_grid_frame *frame, const nook_surfel_before *before, nook_volume *out_volume)
+                             const nook_grid_frame *frame, nook_volume *out_volume)
 {
     nook_alpha_areas *areas = nook_alpha_areas_create(desc->alphas);
-    bake b = { .source = { .triangles = triangles, .alphas = desc->alphas, .areas = areas, .frame = frame },
-               .before = before };
+    bake b = { .source = { .triangles = triangles, .alphas = desc->alphas, .areas = areas, .frame = frame } };
     nook_brick_counts(&(nook_volume_info){ .width = frame->size[0], .height = frame->size[1], .depth = frame->size[2] },
                       b.source.counts);
     unsigned workers = nook_parallel_workers(b.source.counts[2], desc->threads);

@@ -11,20 +11,13 @@ extern "C" {
 /** Raise it when the surfels of the same triangles change: cached ones of older versions are then baked again. */
 #define NOOK_SURFEL_BAKE_VERSION 2u
 
-/** A volume of the same grid, and a byte for each of its bricks: 0 where it stays as it was. */
-typedef struct nook_surfel_before {
-    const nook_volume *volume;
-    const uint8_t *changed;
-} nook_surfel_before;
-
 /**
  * @param desc  checked: threads, memory and alphas @param frame  of the checked soup
- * @param before  what of it need not be made anew; NULL: all is
  * @param out_volume  its bricks, surfels and info.occupied are made, all else of it is zero; untouched on failure
  * @return NOOK_E_MEMORY
  */
 nook_result nook_surfel_bake(const nook_triangles *triangles, const nook_voxelize_desc *desc,
-                             const nook_grid_frame *frame, const nook_surfel_before *before, nook_volume *out_volume);
+                             const nook_grid_frame *frame, nook_volume *out_volume);
 
 #ifdef __cplusplus
 }

@@ -173,10 +173,11 @@ static uint32_t brick_of(const nook_surfel_part *part, int32_t layer)
     return (uint32_t)nook_grid_level_layer(layer, part->level) / NOOK_BRICK_SIDE;
 }
 
-/* Bricks along an axis, of the part's level. */
+/* Bricks along an axis, of the part's level, whose border is a voxel of its own. */
 static uint32_t bricks_along(const nook_surfel_source *source, const nook_surfel_part *part, int axis)
 {
-    return brick_of(part, (int32_t)source->frame->size[axis] - 1) + 1;
+    const int32_t inner = nook_grid_level_layer(source->frame->inner[axis], part->level);
+    return (uint32_t)(inner + 1) / NOOK_BRICK_SIDE + 1;
 }
 
 /* Whether what lies in this layer is looked at. */
@@ -278,15 +279,16 @@ nook_result nook_surfel_cut(const nook_surfel_source *source, size_t triangle, c
     return c.result;
 }
 
-void nook_surfel_mark(const nook_surfel_source *source, size_t triangle, uint8_t *bricks)
+void nook_surfel_mark(const nook_surfel_source *source, size_t triangle, uint32_t level, uint8_t *bricks)
 {
+    const nook_surfel_part part = { .level = level };
+    const size_t width = bricks_along(source, &part, 0), height = bricks_along(source, &part, 1);
     placed p;
     uint32_t box[2][3];
     if (!read_triangle(source, triangle, &p))
         return;
-    find_box(source, &(nook_surfel_part){ .level = 0 }, &p.polygon, box);
+    find_box(source, &part, &p.polygon, box);
     for (uint32_t z = box[0][2]; z <= box[1][2]; z++)
         for (uint32_t y = box[0][1]; y <= box[1][1]; y++)
-            memset(bricks + ((size_t)z * source->counts[1] + y) * source->counts[0] + box[0][0], 1,
-                   box[1][0] - box[0][0] + 1);
+            memset(bricks + (z * height + y) * width + box[0][0], 1, box[1][0] - box[0][0] + 1);
 }

@@ -28,10 +28,9 @@ void nook_surfel_find_reach(const nook_surfel_source *source, uint32_t threads, 
 /** Some bricks of a slab, by their numbers in it: x fastest, then y. Zero but for the first three: bricks of the grid itself. */
 typedef struct nook_surfel_part {
     int32_t slab;
-    uint32_t first, end;   /**< These, but for */
-    const uint8_t *wanted; /**< those that are 0 here, a byte for each brick of the slab. NULL: all are wanted. */
-    uint32_t
-        level; /**< first and end are bricks of this level: docs/surfel_bricks.md, "Levels". `wanted` is NULL then. */
+    uint32_t first, end;     /**< These, but for */
+    const uint8_t *wanted;   /**< those that are 0 here, a byte for each brick from 0 to end. NULL: all are wanted. */
+    uint32_t level;          /**< All three are of bricks of a slab of this level: docs/surfel_bricks.md, "Levels". */
     int32_t lowest, highest; /**< Of the slab's layers of voxels only these are wanted; highest 0: all. */
 } nook_surfel_part;
 
@@ -43,8 +42,8 @@ typedef struct nook_surfel_part {
 nook_result nook_surfel_cut(const nook_surfel_source *source, size_t triangle, const nook_surfel_part *part,
                             nook_surfel_bins *bins);
 
-/** Sets the bytes of all bricks that a triangle may lie in: those of the box around it. @param bricks  of the whole grid */
-void nook_surfel_mark(const nook_surfel_source *source, size_t triangle, uint8_t *bricks);
+/** Sets the bytes of all bricks of a level that a triangle may lie in: those of the box around it. @param bricks  of the level's whole grid */
+void nook_surfel_mark(const nook_surfel_source *source, size_t triangle, uint32_t level, uint8_t *bricks);
 
 #ifdef __cplusplus
 }

@@ -5,6 +5,7 @@
 #include "modules/bake/surfel_bake.h"
 #include "modules/bake/surfel_cut.h"
 #include "modules/bake/surfel_fit.h"
+#include <assert.h>
 #include <math.h>
 #include <stdatomic.h>
 #include <stdlib.h>
@@ -39,9 +40,10 @@ typedef struct pass {
     nook_surfel_source source;
     uint32_t coarsest; /* the last level that is wanted */
     level_grid grids[LEVELS];
-    uint8_t (*reach)[2]; /* of each triangle, slabs of level 0 */
-    uint32_t pieces;     /* units of a slab of the coarsest level */
-    size_t memory;       /* of a worker */
+    uint8_t (*reach)[2];              /* of each triangle, slabs of level 0 */
+    uint32_t pieces;                  /* units of a slab of the coarsest level */
+    size_t memory;                    /* of a worker */
+    const nook_surfel_before *before; /* of each level; NULL: all is made */
     level_worker *workers;
     atomic_bool out_of_memory;
 } pass;
@@ -49,6 +51,7 @@ typedef struct pass {
 /* Some bricks of a slab of the coarsest level, and all that is merged into them. */
 typedef struct unit {
     uint32_t slab, first, end;
+    const uint8_t *wanted; /* of the slab's bricks, 0: stays as it was; NULL: all are made */
 } unit;
 
 /* ---- One level of a unit ----------------------------------------------------------------------------------------- */
@@ -67,11 +70,23 @@ static bool append(records *made, uint32_t place, nook_surfel surfel)
     return true;
 }
 
+/* Whether a brick of a level may be another one than before. */
+static bool is_changed(const pass *p, uint32_t level, size_t brick)
+{
+    return !p->before || p->before[level].changed[brick];
+}
+
 /* The first slab of a level in which something of a unit may lie. */
 static uint32_t first_slab(const pass *p, const unit *u, uint32_t level)
 {
     int32_t layer = (int32_t)u->slab * NOOK_BRICK_SIDE, merges = (int32_t)(p->coarsest - level);
     return layer > 0 ? (uint32_t)(((layer - 1) << merges) + 1) / NOOK_BRICK_SIDE : 0;
+}
+
+/* Where a bit lies in its brick along an axis, in voxels. */
+static uint32_t in_brick(uint32_t bit, uint32_t axis)
+{
+    return (bit >> axis & 1) | (bit >> (axis + 2) & 2);
 }
 
 /* Where a voxel's bins are merged to. @param place  its own: brick in its grid << 6 | bit */
@@ -81,8 +96,7 @@ static uint32_t parent_of(const pass *p, const unit *u, uint32_t level, uint32_t
     const uint32_t corner[3] = { brick % counts[0], brick / counts[0] % counts[1], brick / counts[0] / counts[1] };
     uint32_t at[3];
     for (uint32_t axis = 0; axis < 3; axis++) {
-        uint32_t in_brick = (place >> axis & 1) | (place >> (axis + 2) & 2);
-        int32_t layer = (int32_t)(corner[axis] * NOOK_BRICK_SIDE + in_brick);
+        int32_t layer = (int32_t)(corner[axis] * NOOK_BRICK_SIDE + in_brick(place, axis));
         side[axis] = layer & 1 ? -1 : 1; /* the border is one voxel: 1 and 2 become 1 */
         at[axis] = (uint32_t)nook_grid_level_layer(layer, 1);
     }
@@ -118,8 +132,8 @@ static nook_result finish(const pass *p, const unit *u, uint32_t level, uint32_t
             if (level < p->coarsest && result == NOOK_OK)
                 result = nook_surfel_bins_merge(bins, i, side, worker->bins[level + 1], parent);
         }
-        if (grid->wanted && nook_surfel_fit(voxel_bins, i - first, grid->bias, &surfel) &&
-            !append(&worker->made[level], place, surfel))
+        if (grid->wanted && is_changed(p, level, place >> 6) &&
+            nook_surfel_fit(voxel_bins, i - first, grid->bias, &surfel) && !append(&worker->made[level], place, surfel))
             result = NOOK_E_MEMORY;
     }
     return result;
@@ -136,7 +150,7 @@ static nook_result make_level_0(const pass *p, const unit *u, level_worker *work
     const size_t triangle_count = p->source.triangles->index_count / 3;
     nook_result result = NOOK_OK;
     for (int32_t slab = lowest / NOOK_BRICK_SIDE; slab <= highest / NOOK_BRICK_SIDE && result == NOOK_OK; slab++) {
-        const nook_surfel_part part = { slab, u->first, u->end, NULL, p->coarsest, lowest, highest };
+        const nook_surfel_part part = { slab, u->first, u->end, u->wanted, p->coarsest, lowest, highest };
         nook_surfel_bins_clear(worker->bins[0]);
         for (size_t t = 0; t < triangle_count && result == NOOK_OK; t++)
             if (p->reach[t][0] <= slab && slab <= p->reach[t][1])
@@ -180,6 +194,17 @@ static nook_result make_unit(const pass *p, const unit *u, level_worker *worker)
     return result == NOOK_OK ? make_unit(p, &high, worker) : result;
 }
 
+/* Leaves out what stays at either end. */
+static void narrow(const pass *p, unit *u)
+{
+    const level_grid *grid = &p->grids[p->coarsest];
+    u->wanted = p->before[p->coarsest].changed + (size_t)u->slab * grid->counts[0] * grid->counts[1];
+    while (u->first < u->end && !u->wanted[u->first])
+        u->first++;
+    while (u->first < u->end && !u->wanted[u->end - 1])
+        u->end--;
+}
+
 static void make_units(void *user, size_t first, size_t last, unsigned worker)
 {
     pass *p = user;
@@ -187,8 +212,10 @@ static void make_units(void *user, size_t first, size_t last, unsigned worker)
     const size_t bricks = (size_t)grid->counts[0] * grid->counts[1];
     for (size_t i = first; i < last; i++) {
         const size_t piece = i % p->pieces;
-        const unit u = { (uint32_t)(i / p->pieces), (uint32_t)(piece * bricks / p->pieces),
-                         (uint32_t)((piece + 1) * bricks / p->pieces) };
+        unit u = { (uint32_t)(i / p->pieces), (uint32_t)(piece * bricks / p->pieces),
+                   (uint32_t)((piece + 1) * bricks / p->pieces), NULL };
+        if (p->before)
+            narrow(p, &u);
         if (atomic_load(&p->out_of_memory) || (u.first < u.end && make_unit(p, &u, &p->workers[worker]) != NOOK_OK))
             atomic_store(&p->out_of_memory, true);
     }
@@ -210,28 +237,96 @@ static uint32_t bits_below(const nook_brick *brick, uint32_t bit)
     return bit < 32 ? below : below + count_bits(brick->mask[0]);
 }
 
-/* What the workers have made of a level, each in its own order, in the order of bricks. @return false when there is no memory */
-static bool join(const pass *p, unsigned workers, uint32_t level, nook_volume *out)
+/*
+ * Which voxels of a changed brick were made: those that are merged into changed bricks of the coarsest level, of whose border bricks of this
+ * one may stand out. What lies there no changed triangle touches.
+ */
+static void find_made(const pass *p, uint32_t level, size_t brick, uint32_t out_mask[2])
 {
-    const uint32_t *counts = p->grids[level].counts;
-    size_t count = 0;
-    for (unsigned w = 0; w < workers; w++)
-        count += p->workers[w].made[level].count;
-    nook_volume volume = { .info = { .occupied = count } };
-    volume.bricks = calloc((size_t)counts[0] * counts[1] * counts[2], sizeof *volume.bricks);
-    volume.surfels = malloc((count + 1) * sizeof *volume.surfels);
-    if (!volume.bricks || !volume.surfels) {
-        nook_volume_free(&volume);
-        return false;
+    const uint32_t *counts = p->grids[level].counts, *above = p->grids[p->coarsest].counts,
+                   row = (uint32_t)brick / counts[0];
+    const uint32_t corner[3] = { (uint32_t)brick % counts[0], row % counts[1], row / counts[1] };
+    out_mask[0] = out_mask[1] = 0;
+    for (uint32_t bit = 0; bit < 64; bit++) {
+        uint32_t at[3];
+        for (uint32_t axis = 0; axis < 3; axis++) {
+            const uint32_t layer = corner[axis] * NOOK_BRICK_SIDE + in_brick(bit, axis);
+            at[axis] = (uint32_t)nook_grid_level_layer((int32_t)layer, p->coarsest - level) / NOOK_BRICK_SIDE;
+        }
+        const bool inside = at[0] < above[0] && at[1] < above[1] && at[2] < above[2]; /* the last bricks stand out */
+        if (inside && is_changed(p, p->coarsest, ((size_t)at[2] * above[1] + at[1]) * above[0] + at[0]))
+            out_mask[bit >> 5] |= 1u << (bit & 31);
     }
+}
+
+/* The masks of what stays. @return how many surfels there are */
+static size_t keep_masks(const pass *p, uint32_t level, size_t brick_count, nook_brick *bricks)
+{
+    const nook_brick *before = p->before[level].volume->bricks;
+    size_t count = 0;
+    for (size_t i = 0; i < brick_count; i++) {
+        uint32_t made[2] = { 0, 0 };
+        if (is_changed(p, level, i))
+            find_made(p, level, i, made);
+        for (int word = 0; word < 2; word++) {
+            bricks[i].mask[word] = before[i].mask[word] & ~made[word];
+            count += count_bits(bricks[i].mask[word]);
+        }
+    }
+    return count;
+}
+
+/* The surfels of what was there and still is, also where another one was made, which then takes its place. */
+static void keep_surfels(const nook_volume *before, size_t brick_count, nook_volume *volume)
+{
+    for (size_t i = 0; i < brick_count; i++) {
+        const nook_brick *from = &before->bricks[i], *to = &volume->bricks[i];
+        const size_t count = count_bits(from->mask[0]) + count_bits(from->mask[1]);
+        const bool whole = memcmp(from->mask, to->mask, sizeof from->mask) == 0;
+        if (whole && count)
+            memcpy(volume->surfels + to->first_surfel, before->surfels + from->first_surfel,
+                   count * sizeof *volume->surfels);
+        for (uint32_t bit = 0; bit < 64 && count && !whole; bit++)
+            if ((from->mask[bit >> 5] & to->mask[bit >> 5]) >> (bit & 31) & 1)
+                volume->surfels[to->first_surfel + bits_below(to, bit)] =
+                    before->surfels[from->first_surfel + bits_below(from, bit)];
+    }
+}
+
+static void set_made_bits(const pass *p, unsigned workers, uint32_t level, nook_brick *bricks)
+{
     for (unsigned w = 0; w < workers; w++) {
         const records *made = &p->workers[w].made[level];
         for (size_t i = 0; i < made->count; i++) {
             const uint32_t place = made->items[i].place;
-            volume.bricks[place >> 6].mask[place >> 5 & 1] |= 1u << (place & 31);
+            bricks[place >> 6].mask[place >> 5 & 1] |= 1u << (place & 31);
         }
     }
-    nook_bricks_number(volume.bricks, counts);
+}
+
+/* What the workers have made of a level, each in its own order, and what stays, in the order of bricks. @return false when there is no memory */
+static bool join(const pass *p, unsigned workers, uint32_t level, nook_volume *out)
+{
+    const uint32_t *counts = p->grids[level].counts;
+    const size_t brick_count = (size_t)counts[0] * counts[1] * counts[2];
+    size_t count = 0;
+    nook_volume volume = { .bricks = calloc(brick_count, sizeof *volume.bricks) };
+    if (!volume.bricks)
+        return false;
+    if (p->before)
+        count = keep_masks(p, level, brick_count, volume.bricks);
+    for (unsigned w = 0; w < workers; w++)
+        count += p->workers[w].made[level].count;
+    set_made_bits(p, workers, level, volume.bricks);
+    volume.info.occupied = nook_bricks_number(volume.bricks, counts);
+    assert(volume.info.occupied == count);
+    volume.surfels = malloc((count + 1) * sizeof *volume.surfels);
+    if (!volume.surfels) {
+        nook_volume_free(&volume);
+        return false;
+    }
+    if (p->before)
+        keep_surfels(p->before[level].volume, brick_count, &volume);
     for (unsigned w = 0; w < workers; w++) {
         const records *made = &p->workers[w].made[level];
         for (size_t i = 0; i < made->count; i++) {
@@ -297,11 +392,13 @@ static void release(pass *p, unsigned workers)
 }
 
 nook_result nook_surfel_bake_levels(const nook_triangles *triangles, const nook_voxelize_desc *desc,
-                                    const nook_grid_frame *frame, uint32_t levels, nook_volume *out_volumes)
+                                    const nook_grid_frame *frame, uint32_t levels, const nook_surfel_before *before,
+                                    nook_volume *out_volumes)
 {
     nook_alpha_areas *areas = nook_alpha_areas_create(desc->alphas);
     pass p = { .source = { .triangles = triangles, .alphas = desc->alphas, .areas = areas, .frame = frame },
-               .memory = desc->memory ? desc->memory : NOOK_VOXELIZE_MEMORY };
+               .memory = desc->memory ? desc->memory : NOOK_VOXELIZE_MEMORY,
+               .before = before };
     describe_grids(&p, levels);
     const uint32_t slabs = p.grids[p.coarsest].counts[2], wide = nook_parallel_workers(SIZE_MAX, desc->threads);
     p.pieces = wide > 1 ? (2 * wide + slabs - 1) / slabs : 1;

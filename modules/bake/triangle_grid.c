@@ -51,7 +51,8 @@ static nook_result check_input(const nook_triangles *triangles, const nook_voxel
 
 /* ---- The grid --------------------------------------------------------------------------------------------------- */
 
-static nook_result find_box(const nook_triangles *triangles, double out_min[3], double out_max[3])
+/* @return how many triangles are left out */
+static size_t find_box(const nook_triangles *triangles, double out_min[3], double out_max[3])
 {
     size_t left_out = 0, count = triangles->index_count / 3;
     vec3 box[2];
@@ -71,11 +72,7 @@ static nook_result find_box(const nook_triangles *triangles, double out_min[3], 
         out_min[axis] = box[0][axis];
         out_max[axis] = box[1][axis];
     }
-    if (left_out == count)
-        return nook_fail(NOOK_E_ARG, "voxelize: none of %zu triangles is finite: nothing to voxelize", count);
-    if (left_out > 0)
-        nook_log_warning("voxelize: %zu of %zu triangles have a corner that is not finite; left out", left_out, count);
-    return NOOK_OK;
+    return left_out;
 }
 
 /** Longest side; never 0, nor less than what corners in float can tell apart. No length of ours: bodies have any size. */
@@ -150,11 +147,23 @@ nook_grid_frame nook_grid_level(const nook_grid_frame *frame, uint32_t level)
 
 nook_result nook_grid_place(const nook_triangles *triangles, const nook_voxelize_desc *desc, nook_grid_frame *out_frame)
 {
-    double box_min[3], box_max[3];
+    const size_t count = triangles->index_count / 3;
     nook_result result = check_input(triangles, desc);
-    if (result == NOOK_OK)
-        result = find_box(triangles, box_min, box_max);
-    if (result == NOOK_OK)
-        *out_frame = frame_box(box_min, box_max, desc->resolution);
-    return result;
+    if (result != NOOK_OK)
+        return result;
+    size_t left_out = nook_grid_find(triangles, desc->resolution, out_frame);
+    if (left_out == count)
+        return nook_fail(NOOK_E_ARG, "voxelize: none of %zu triangles is finite: nothing to voxelize", count);
+    if (left_out > 0)
+        nook_log_warning("voxelize: %zu of %zu triangles have a corner that is not finite; left out", left_out, count);
+    return NOOK_OK;
+}
+
+size_t nook_grid_find(const nook_triangles *triangles, uint32_t resolution, nook_grid_frame *out_frame)
+{
+    double box_min[3], box_max[3];
+    size_t left_out = find_box(triangles, box_min, box_max);
+    if (left_out < triangles->index_count / 3)
+        *out_frame = frame_box(box_min, box_max, resolution);
+    return left_out;
 }

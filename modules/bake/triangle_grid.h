@@ -35,6 +35,12 @@ typedef struct nook_grid_frame {
 nook_result nook_grid_place(const nook_triangles *triangles, const nook_voxelize_desc *desc,
                             nook_grid_frame *out_frame);
 
+/**
+ * The same of a soup that has been checked, without a word.
+ * @return how many triangles have a corner that is not finite; where all have, *out_frame is untouched
+ */
+size_t nook_grid_find(const nook_triangles *triangles, uint32_t resolution, nook_grid_frame *out_frame);
+
 /** @return false when a corner is not finite */
 bool nook_grid_snap(const nook_grid_frame *frame, const nook_triangles *triangles, size_t triangle,
                     nook_snapped_triangle *out);

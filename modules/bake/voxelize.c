@@ -166,7 +166,7 @@ static nook_result make_kind(const nook_triangles *triangles, const nook_voxeliz
     case NOOK_VOLUME_DENSITY:
         return nook_density_bake(triangles, desc->alphas, desc->threads, frame, out_volume);
     case NOOK_VOLUME_SURFEL:
-        return nook_surfel_bake(triangles, desc, frame, NULL, out_volume);
+        return nook_surfel_bake(triangles, desc, frame, out_volume);
     case NOOK_VOLUME_DISTANCE:
         return nook_distance_bake(triangles, desc->threads, frame, out_volume);
     }
@@ -186,11 +186,12 @@ static nook_volume_info describe(const nook_triangles *triangles, const nook_vox
                                .occupied = occupied };
 }
 
-/* @param frame  of level 0 */
+/* @param frame  of level 0 @param before  NULL: all is made */
 static nook_result make_levels(const nook_triangles *triangles, const nook_voxelize_desc *desc,
-                               const nook_grid_frame *frame, uint32_t levels, nook_volume *out_volumes)
+                               const nook_grid_frame *frame, uint32_t levels, const nook_surfel_before *before,
+                               nook_volume *out_volumes)
 {
-    nook_result result = nook_surfel_bake_levels(triangles, desc, frame, levels, out_volumes);
+    nook_result result = nook_surfel_bake_levels(triangles, desc, frame, levels, before, out_volumes);
     for (uint32_t level = 0; level < NOOK_VOXELIZE_LEVELS && result == NOOK_OK; level++) {
         if (!(levels >> level & 1))
             continue;
@@ -208,7 +209,7 @@ static nook_result make(const nook_triangles *triangles, const nook_voxelize_des
 {
     nook_volume volume, volumes[NOOK_VOXELIZE_LEVELS];
     if (desc->level > 0) {
-        nook_result made = make_levels(triangles, desc, frame, 1u << desc->level, volumes);
+        nook_result made = make_levels(triangles, desc, frame, 1u << desc->level, NULL, volumes);
         if (made == NOOK_OK)
             *out_volume = volumes[desc->level];
         return made;
@@ -235,82 +236,158 @@ uint32_t nook_voxelize_level_resolution(uint32_t resolution, uint32_t level)
     return (uint32_t)nook_grid_level_layer((int32_t)resolution, level);
 }
 
+static nook_result check_levels(const nook_voxelize_desc *desc, uint32_t levels)
+{
+    if (levels == 0 || levels >> NOOK_VOXELIZE_LEVELS || desc->kind != NOOK_VOLUME_SURFEL)
+        return nook_fail(NOOK_E_RANGE, "voxelize: levels %#x of kind %d; surfels alone have levels, 0 to %d, as bits",
+                         levels, (int)desc->kind, NOOK_VOXELIZE_LEVELS - 1);
+    return NOOK_OK;
+}
+
 nook_result nook_voxelize_levels(const nook_triangles *triangles, const nook_voxelize_desc *desc, uint32_t levels,
                                  nook_volume *out_volumes)
 {
     nook_grid_frame frame;
     nook_voxelize_desc finest = *desc;
     finest.level = 0;
-    if (levels == 0 || levels >> NOOK_VOXELIZE_LEVELS || desc->kind != NOOK_VOLUME_SURFEL)
-        return nook_fail(NOOK_E_RANGE, "voxelize: levels %#x of kind %d; surfels alone have levels, 0 to %d, as bits",
-                         levels, (int)desc->kind, NOOK_VOXELIZE_LEVELS - 1);
-    nook_result result = nook_grid_place(triangles, &finest, &frame);
-    return result == NOOK_OK ? make_levels(triangles, &finest, &frame, levels, out_volumes) : result;
+    nook_result result = check_levels(desc, levels);
+    if (result == NOOK_OK)
+        result = nook_grid_place(triangles, &finest, &frame);
+    return result == NOOK_OK ? make_levels(triangles, &finest, &frame, levels, NULL, out_volumes) : result;
 }
 
 /* ---- Again ------------------------------------------------------------------------------------------------------ */
 
-static bool is_same_grid(const nook_volume_info *info, const nook_grid_frame *frame)
-{
-    bool same = info->voxel_size == frame->voxel_size && info->width == frame->size[0] &&
-                info->height == frame->size[1] && info->depth == frame->size[2];
-    for (int axis = 0; axis < 3; axis++)
-        same = same && info->origin[axis] == frame->origin[axis];
-    return same;
-}
+/* What levels were before: pointers, as there may be one alone. NULL: not asked for. */
+typedef struct older {
+    const nook_triangles *triangles;
+    const nook_alphas *alphas;
+    const nook_volume *volumes[NOOK_VOXELIZE_LEVELS];
+} older;
 
-static nook_result check_before(const nook_voxelize_desc *desc, const nook_voxelize_before *before)
+static nook_result check_before(const nook_voxelize_desc *desc, const older *before)
 {
     nook_voxelize_desc then = *desc;
     then.alphas = before->alphas;
-    if (before->volume->info.kind == desc->kind &&
-        before->volume->info.content_hash == nook_voxelize_hash(before->triangles, &then))
-        return NOOK_OK;
-    return nook_fail(NOOK_E_ARG, "voxelize: the volume before is not that of the triangles before");
+    for (uint32_t level = 0; level < NOOK_VOXELIZE_LEVELS; level++) {
+        const nook_volume *volume = before->volumes[level];
+        then.level = level;
+        if (volume && (volume->info.kind != desc->kind ||
+                       volume->info.content_hash != nook_voxelize_hash(before->triangles, &then)))
+            return nook_fail(NOOK_E_ARG, "voxelize: the volume before is not that of the triangles before");
+    }
+    return NOOK_OK;
 }
 
-/* @param frame  of both */
-static nook_result make_changed(const nook_triangles *triangles, const nook_voxelize_desc *desc,
-                                const nook_voxelize_before *before, const nook_grid_frame *frame,
-                                nook_volume *out_volume, size_t *out_bricks)
+/*
+ * Whether level 0 has the same grid as it had. Of coarser levels it does not show: with another voxel at the end of an odd side theirs stays, and
+ * what was put into the last layer lies in the next one.
+ */
+static bool is_same_grid(const older *before, const nook_voxelize_desc *desc, const nook_grid_frame *frame)
 {
-    uint8_t *changed = calloc(nook_brick_total(&before->volume->info), 1);
-    nook_result result = NOOK_E_MEMORY;
-    if (changed)
-        result = nook_edit_find(&(nook_edit_soup){ before->triangles, before->alphas },
-                                &(nook_edit_soup){ triangles, desc->alphas }, frame, changed, out_bricks);
-    if (result == NOOK_OK)
-        result = nook_surfel_bake(triangles, desc, frame, &(nook_surfel_before){ before->volume, changed }, out_volume);
+    nook_grid_frame then;
+    const nook_volume *finest = before->volumes[0];
+    if (finest)
+        then = (nook_grid_frame){ .voxel_size = finest->info.voxel_size,
+                                  .origin = { finest->info.origin[0], finest->info.origin[1], finest->info.origin[2] },
+                                  .size = { finest->info.width, finest->info.height, finest->info.depth } };
     else
-        result = nook_fail(NOOK_E_MEMORY, "voxelize: no memory to tell %zu triangles from those before",
-                           triangles->index_count / 3);
-    free(changed);
+        nook_grid_find(before->triangles, desc->resolution, &then); /* finite ones: a volume was made of them */
+    bool same = then.voxel_size == frame->voxel_size;
+    for (int axis = 0; axis < 3; axis++)
+        same = same && then.origin[axis] == frame->origin[axis] && then.size[axis] == frame->size[axis];
+    return same;
+}
+
+/* @param frame  of level 0, of both */
+static nook_result make_changed(const nook_triangles *triangles, const nook_voxelize_desc *desc, uint32_t levels,
+                                const older *before, const nook_grid_frame *frame, nook_volume *out_volumes,
+                                size_t *out_bricks)
+{
+    uint8_t *changed[NOOK_VOXELIZE_LEVELS] = { NULL };
+    nook_surfel_before kept[NOOK_VOXELIZE_LEVELS] = { { .volume = NULL } };
+    bool allocated = true;
+    for (uint32_t level = 0; level < NOOK_VOXELIZE_LEVELS && allocated; level++)
+        if (levels >> level & 1) {
+            changed[level] = calloc(nook_brick_total(&before->volumes[level]->info), 1);
+            kept[level] = (nook_surfel_before){ before->volumes[level], changed[level] };
+            allocated = changed[level] != NULL;
+        }
+    if (!allocated || nook_edit_find(&(nook_edit_soup){ before->triangles, before->alphas },
+                                     &(nook_edit_soup){ triangles, desc->alphas }, frame, changed) != NOOK_OK)
+        allocated = false;
+    nook_result result = allocated
+                             ? make_levels(triangles, desc, frame, levels, kept, out_volumes)
+                             : nook_fail(NOOK_E_MEMORY, "voxelize: no memory to tell %zu triangles from those before",
+                                         triangles->index_count / 3);
+    for (uint32_t level = 0; level < NOOK_VOXELIZE_LEVELS; level++) {
+        out_bricks[level] = 0;
+        for (size_t i = 0; changed[level] && i < nook_brick_total(&kept[level].volume->info); i++)
+            out_bricks[level] += changed[level][i];
+        free(changed[level]);
+    }
+    return result;
+}
+
+/* Of surfels. @param desc  of level 0 @param out_bricks  NOOK_VOXELIZE_LEVELS of them; filled on NOOK_OK */
+static nook_result make_again(const nook_triangles *triangles, const nook_voxelize_desc *desc, uint32_t levels,
+                              const older *before, const nook_grid_frame *frame, nook_volume *out_volumes,
+                              size_t *out_bricks)
+{
+    if (is_same_grid(before, desc, frame))
+        return make_changed(triangles, desc, levels, before, frame, out_volumes, out_bricks);
+    for (uint32_t level = 0; level < NOOK_VOXELIZE_LEVELS; level++)
+        out_bricks[level] = before->volumes[level] ? nook_brick_total(&before->volumes[level]->info) : 0;
+    return make_levels(triangles, desc, frame, levels, NULL, out_volumes);
+}
+
+nook_result nook_voxelize_levels_again(const nook_triangles *triangles, const nook_voxelize_desc *desc, uint32_t levels,
+                                       const nook_voxelize_before *before, nook_volume *out_volumes, size_t *out_bricks)
+{
+    size_t bricks[NOOK_VOXELIZE_LEVELS];
+    nook_grid_frame frame;
+    nook_voxelize_desc finest = *desc;
+    older was = { before->triangles, before->alphas, { NULL } };
+    finest.level = 0;
+    for (uint32_t level = 0; level < NOOK_VOXELIZE_LEVELS; level++)
+        was.volumes[level] = levels >> level & 1 ? &before->volume[level] : NULL;
+    nook_result result = check_levels(desc, levels);
+    if (result == NOOK_OK)
+        result = nook_grid_place(triangles, &finest, &frame);
+    if (result == NOOK_OK)
+        result = check_before(desc, &was);
+    if (result == NOOK_OK)
+        result = make_again(triangles, &finest, levels, &was, &frame, out_volumes, bricks);
+    for (uint32_t level = 0; level < NOOK_VOXELIZE_LEVELS && result == NOOK_OK && out_bricks; level++)
+        if (levels >> level & 1)
+            out_bricks[level] = bricks[level];
     return result;
 }
 
 nook_result nook_voxelize_again(const nook_triangles *triangles, const nook_voxelize_desc *desc,
                                 const nook_voxelize_before *before, nook_volume *out_volume, size_t *out_bricks)
 {
+    size_t bricks[NOOK_VOXELIZE_LEVELS] = { 0 };
+    nook_volume volumes[NOOK_VOXELIZE_LEVELS];
     nook_grid_frame frame;
-    nook_volume volume;
-    size_t bricks = 0;
-    nook_result result = nook_grid_place(triangles, desc, &frame);
-    if (result == NOOK_OK)
-        result = check_before(desc, before);
+    nook_voxelize_desc finest = *desc;
+    older was = { before->triangles, before->alphas, { NULL } };
+    nook_result result = nook_grid_place(triangles, desc, &frame); /* checks the level, too */
     if (result != NOOK_OK)
         return result;
-    if (desc->kind == NOOK_VOLUME_SURFEL && desc->level == 0 && is_same_grid(&before->volume->info, &frame)) {
-        result = make_changed(triangles, desc, before, &frame, &volume, &bricks);
-        if (result == NOOK_OK)
-            volume.info = describe(triangles, desc, &frame, volume.info.occupied);
-    } else {
-        result = make(triangles, desc, &frame, &volume); /* not nook_voxelize, which would warn once more */
-        bricks = nook_brick_total(&before->volume->info);
+    finest.level = 0;
+    was.volumes[desc->level] = before->volume;
+    result = check_before(desc, &was);
+    if (result == NOOK_OK && desc->kind == NOOK_VOLUME_SURFEL) {
+        result = make_again(triangles, &finest, 1u << desc->level, &was, &frame, volumes, bricks);
+    } else if (result == NOOK_OK) {
+        result = make(triangles, desc, &frame, &volumes[0]); /* not nook_voxelize, which would warn once more */
+        bricks[0] = nook_brick_total(&before->volume->info);
     }
     if (result != NOOK_OK)
         return result;
-    *out_volume = volume;
+    *out_volume = volumes[desc->level];
     if (out_bricks)
-        *out_bricks = bricks;
+        *out_bricks = bricks[desc->level];
     return NOOK_OK;
 }

@@ -82,18 +82,29 @@ nook_result nook_voxelize_levels(const nook_triangles *triangles, const nook_vox
 typedef struct nook_voxelize_before {
     const nook_triangles *triangles;
     const nook_alphas *alphas; /**< NULL: all was opaque. */
-    const nook_volume *volume; /**< As nook_voxelize made it of them, with the same resolution and kind. */
+    /** As nook_voxelize made it of them, with the same resolution, kind and level. For nook_voxelize_levels_again NOOK_VOXELIZE_LEVELS of them, of
+        which those of the levels are looked at. */
+    const nook_volume *volume;
 } nook_voxelize_before;
 
 /**
  * The same as nook_voxelize bit for bit, sooner: of surfels only those bricks are made in whose boxes triangles differ, before or after. Where
- * the grid differs, as the soup's box does, for levels above 0, and for other kinds, everything is made. Triangles are told apart by their places in
+ * the grid differs, as the soup's box does, and for other kinds, everything is made. Triangles are told apart by their places in
  * the lists: what is put in or taken out in one place of a list changes only the triangles between.
  * @param out_bricks  how many were made; NULL is allowed
  * @return as nook_voxelize; NOOK_E_ARG also when the volume is not that of those triangles
  */
 nook_result nook_voxelize_again(const nook_triangles *triangles, const nook_voxelize_desc *desc,
                                 const nook_voxelize_before *before, nook_volume *out_volume, size_t *out_bricks);
+
+/**
+ * The same as nook_voxelize_levels bit for bit, sooner, by the same rule: triangles are cut once, where they reach changed bricks of the coarsest of the levels.
+ * @param out_bricks  of each of the levels how many were made, NOOK_VOXELIZE_LEVELS of them; NULL is allowed
+ * @return as nook_voxelize_levels; NOOK_E_ARG also when one of the volumes is not that level of those triangles
+ */
+nook_result nook_voxelize_levels_again(const nook_triangles *triangles, const nook_voxelize_desc *desc, uint32_t levels,
+                                       const nook_voxelize_before *before, nook_volume *out_volumes,
+                                       size_t *out_bricks);
 
 /**
  * Identifies a bake: a hash of positions, indices, kind, resolution, level, the versions of voxeliser and file, and of those parts that the kind

@@ -301,29 +301,6 @@ static void test_other_kinds_and_levels_are_refused(void **state)
     free(b);
 }
 
-static void test_an_edited_mesh_has_its_levels_made_anew(void **state)
-{
-    (void)state;
-    test_wavy_ball *before = test_make_wavy_ball(0.05f), *after = test_make_wavy_ball(0.05f);
-    after->points[WAVY_POINTS / 2][0] *= 0.9f;
-    const nook_triangles was = test_wavy_ball_triangles(before), is = test_wavy_ball_triangles(after);
-    nook_voxelize_desc then = desc_of(before, 40), now = desc_of(after, 40);
-    then.level = now.level = 1;
-    nook_volume old, again, whole;
-    size_t bricks;
-    assert_int_equal(nook_voxelize(&was, &then, &old), NOOK_OK);
-    const nook_voxelize_before older = { &was, &before->alphas, &old };
-    assert_int_equal(nook_voxelize_again(&is, &now, &older, &again, &bricks), NOOK_OK);
-    assert_int_equal(nook_voxelize(&is, &now, &whole), NOOK_OK);
-    test_assert_same_surfels(&again, &whole);
-    assert_int_equal(bricks, nook_brick_total(&old.info));
-    nook_volume_free(&old);
-    nook_volume_free(&again);
-    nook_volume_free(&whole);
-    free(before);
-    free(after);
-}
-
 /* ---- Through the cache -------------------------------------------------------------------------------------------- */
 
 static void free_bakes(nook_bake *bakes)
@@ -399,7 +376,6 @@ int main(void)
         cmocka_unit_test(test_a_level_is_as_near_to_the_surface_as_a_bake_of_its_own),
         cmocka_unit_test(test_a_tilted_plane_stays_one_in_all_levels),
         cmocka_unit_test(test_other_kinds_and_levels_are_refused),
-        cmocka_unit_test(test_an_edited_mesh_has_its_levels_made_anew),
         cmocka_unit_test(test_the_cache_keeps_each_level_and_makes_what_it_lacks),
         cmocka_unit_test(test_levels_of_other_kinds_are_bakes_of_their_own),
     };

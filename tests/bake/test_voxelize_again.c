@@ -221,18 +221,19 @@ static void test_a_volume_of_something_else_is_refused(void **state)
     free(other);
 }
 
-/* Of all kinds, also those of which nothing stays. */
+/* Of all kinds, also those of which nothing stays, and all levels. */
 static void test_triangles_that_are_left_out_are_counted_in_one_warning(void **state)
 {
     (void)state;
     hills *h = make_hills();
     h->points[POINTS / 2][2] = NAN;
     const nook_triangles triangles = triangles_of(h);
-    for (int kind = 0; kind < NOOK_VOLUME_KINDS; kind++) {
+    for (uint32_t i = 0; i < NOOK_VOLUME_KINDS + NOOK_VOXELIZE_LEVELS; i++) {
         nook_volume old, again;
         nook_log_capture log;
         nook_voxelize_desc desc = desc_of(h, 1);
-        desc.kind = (nook_volume_kind)kind;
+        desc.kind = i < NOOK_VOLUME_KINDS ? (nook_volume_kind)i : NOOK_VOLUME_SURFEL;
+        desc.level = i < NOOK_VOLUME_KINDS ? 0 : i - NOOK_VOLUME_KINDS;
         nook_log_capture_begin(&log);
         assert_int_equal(nook_voxelize(&triangles, &desc, &old), NOOK_OK);
         assert_int_equal(log.count, 1);
