@@ -1,4 +1,5 @@
 #include "game/stream_volumes.h"
+#include "engine/core/mebibyte.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -37,14 +38,13 @@ nook_result nook_stream_look(nook_stream *stream, const nook_camera *camera, con
 
 const char *nook_stream_print(const nook_stream *stream, char *out, size_t capacity)
 {
-    static const double mebibyte = 1024.0 * 1024.0;
     nook_stream_status status;
     nook_stream_get_status(stream, &status);
     char budget[32] = "";
     if (status.budget > 0)
-        snprintf(budget, sizeof budget, " of %.2f", (double)status.budget / mebibyte);
+        snprintf(budget, sizeof budget, " of %.2f", (double)status.budget / NOOK_MIB);
     snprintf(out, capacity, "volumes: %.2f%s MiB, %u of %u there, %u wanted, %u of these waiting%s",
-             (double)status.memory / mebibyte, budget, status.resident, status.volumes, status.wanted, status.waiting,
+             (double)status.memory / NOOK_MIB, budget, status.resident, status.volumes, status.wanted, status.waiting,
              status.failed ? "; no room for any more" : "");
     return out;
 }

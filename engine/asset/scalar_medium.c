@@ -32,10 +32,10 @@ static nook_result check(const char *name, const nook_scalar_volume *volume, con
         if (volume->size[axis] > NOOK_MEDIUM_SIDE_MAX)
             return nook_fail(NOOK_E_FORMAT, "%s: %u samples along an axis; a density has up to %u", name,
                              volume->size[axis], NOOK_MEDIUM_SIDE_MAX);
-        if (!(volume->spacing[axis] >= 1e-9 && side <= 1e9))
-            return nook_fail(NOOK_E_FORMAT,
-                             "%s: %u samples %g apart; a density has spacings of 1e-9 and sides up to 1e9 metres", name,
-                             volume->size[axis], volume->spacing[axis]);
+        if (!(volume->spacing[axis] >= NOOK_MEDIUM_SPACING_MIN && side <= NOOK_MEDIUM_LENGTH_MAX))
+            return nook_fail(
+                NOOK_E_FORMAT, "%s: %u samples %g apart; a density has spacings of %g and sides up to %g metres", name,
+                volume->size[axis], volume->spacing[axis], NOOK_MEDIUM_SPACING_MIN, NOOK_MEDIUM_LENGTH_MAX);
     }
     return NOOK_OK;
 }

@@ -19,7 +19,9 @@ typedef struct nook_medium {
     const float *extinction; /**< Per metre, finite, >= 0; x fastest, then y, then z. */
 } nook_medium;
 
-#define NOOK_MEDIUM_SIDE_MAX 65536u /**< Cells along an axis: as many are walked by a ray. */
+#define NOOK_MEDIUM_SIDE_MAX 65536u  /**< Cells along an axis: as many are walked by a ray. */
+#define NOOK_MEDIUM_SPACING_MIN 1e-9 /**< Metres. */
+#define NOOK_MEDIUM_LENGTH_MAX 1e9   /**< Metres, of the whole grid along an axis. */
 #define NOOK_MEDIUM_CELLS_MAX \
     (1ull << 28) /**< Of a medium, and of all in a scene: 1 GiB, once in the scene and once in the AO. */
 

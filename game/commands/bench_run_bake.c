@@ -2,6 +2,7 @@
 #include "engine/core/angle.h"
 #include "engine/core/clock.h"
 #include "engine/core/log.h"
+#include "engine/core/mebibyte.h"
 #include "engine/core/process.h"
 #include "game/commands/benches.h"
 #include "game/option_rows.h"
@@ -13,7 +14,7 @@
 #include <string.h>
 #include <sys/resource.h>
 
-enum { LEVELS = NOOK_VOXELIZE_LEVELS, MIB = 1 << 20 };
+enum { LEVELS = NOOK_VOXELIZE_LEVELS };
 static const uint32_t levels[LEVELS] = { 64, 128, 256, 512 };
 
 typedef struct bake_options {
@@ -107,14 +108,14 @@ static void choose_vertex(bake_mesh *mesh)
 static double peak_mib(void)
 {
     struct rusage usage;
-    return getrusage(RUSAGE_SELF, &usage) == 0 ? (double)usage.ru_maxrss * 1024.0 / MIB : NAN;
+    return getrusage(RUSAGE_SELF, &usage) == 0 ? (double)usage.ru_maxrss * 1024.0 / NOOK_MIB : NAN;
 }
 
 /* What it has now. */
 static double resident_mib(void)
 {
     nook_process process;
-    return nook_process_read(&process) == NOOK_OK ? (double)process.resident / MIB : NAN;
+    return nook_process_read(&process) == NOOK_OK ? (double)process.resident / NOOK_MIB : NAN;
 }
 
 static bool same_surfels(const nook_volume *a, const nook_volume *b)
@@ -135,7 +136,7 @@ static nook_voxelize_desc describe(const bake_options *options, uint32_t resolut
     return (nook_voxelize_desc){ .resolution = resolution,
                                  .threads = (uint32_t)options->threads,
                                  .kind = NOOK_VOLUME_SURFEL,
-                                 .memory = (size_t)options->memory * MIB };
+                                 .memory = (size_t)(options->memory * NOOK_MIB) };
 }
 
 /* The mesh with its vertex moved by a voxel towards the middle of the volume. @return its positions, release with free(); NULL: no memory */

@@ -3,6 +3,7 @@
 #include "engine/core/clock.h"
 #include "engine/core/file.h"
 #include "engine/core/log.h"
+#include "engine/core/mebibyte.h"
 #include "engine/core/order.h"
 #include "game/commands/benches.h"
 #include "game/interrupt.h"
@@ -148,7 +149,7 @@ static void print_stream(const nook_stream *stream)
     nook_stream_get_status(stream, &status);
     printf("\n%s\n%" PRIu64 " came, %" PRIu64 " went, at most %.3f MiB uploaded in a frame\n",
            nook_stream_print(stream, line, sizeof line), status.loads, status.evictions,
-           (double)status.largest_upload / (1024.0 * 1024.0));
+           (double)status.largest_upload / NOOK_MIB);
 }
 
 static nook_result run(nook_play_window *window, const play_options *options)

@@ -1,3 +1,4 @@
+#include "engine/core/mebibyte.h"
 #include "game/commands/commands.h"
 #include "game/option_rows.h"
 #include "game/play/soak_run.h"
@@ -65,7 +66,7 @@ static void print_bodies(const nook_soak_bodies *bodies)
 
 static double mebibytes(uint64_t bytes)
 {
-    return (double)bytes / 1048576.0;
+    return (double)bytes / NOOK_MIB;
 }
 
 static void print_memory(const char *name, const nook_soak_memory *memory, uint64_t allowed)

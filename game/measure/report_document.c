@@ -1,5 +1,6 @@
 #include "engine/core/file.h"
 #include "engine/core/log.h"
+#include "engine/core/mebibyte.h"
 #include "game/measure/report.h"
 #include "game/measure/summary.h"
 #include <math.h>
@@ -151,8 +152,8 @@ static void put_initial_row(FILE *out, const nook_summary_view *view, const nook
     put_number(out, "%.4f", sample->noise);
     put_number(out, "%.4f", sample->flicker);
     put_number(out, "%.4f", sample->instability.rms);
-    put_number(out, "%.2f", sample->volume_bytes / (1024.0 * 1024.0));
-    put_number(out, "%.2f", sample->texture_bytes / (1024.0 * 1024.0));
+    put_number(out, "%.2f", sample->volume_bytes / NOOK_MIB);
+    put_number(out, "%.2f", sample->texture_bytes / NOOK_MIB);
     put_number(out, "%.2f", sample->bake_ms / 1000.0);
     fputc('\n', out);
 }

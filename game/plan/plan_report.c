@@ -1,7 +1,6 @@
 #include "game/plan/plan_report.h"
 #include "engine/core/file.h"
-
-static const double mib = 1024.0 * 1024.0;
+#include "engine/core/mebibyte.h"
 
 static uint64_t bytes_today(const nook_plan_report *r, uint32_t volume)
 {
@@ -39,7 +38,7 @@ static uint32_t count_rule(const nook_plan *plan, nook_plan_rule rule, double *o
 
 static void print_rule(FILE *stream, const char *rule, const char *chosen, double saved, const char *rests_on)
 {
-    fprintf(stream, "%-16s %-44s %9.3f  %s\n", rule, chosen, saved / mib, rests_on);
+    fprintf(stream, "%-16s %-44s %9.3f  %s\n", rule, chosen, saved / NOOK_MIB, rests_on);
 }
 
 static void print_bodies(const nook_plan_report *r, FILE *stream)
@@ -107,7 +106,8 @@ static void print_volume(const nook_plan_report *r, uint32_t index, FILE *stream
     bool split = index == r->described->static_volume && r->plan->group_count > 0;
     fprintf(stream, "%-28.28s %5u %6u %6u %9.3f %9.3f  %s", r->volumes->volumes[index].name,
             r->volumes->volumes[index].instances, r->described->volumes[index].resolution, choice->resolution,
-            (double)bytes_today(r, index) / mib, (double)choice->bytes / mib, split ? "split" : reasons[choice->why]);
+            (double)bytes_today(r, index) / NOOK_MIB, (double)choice->bytes / NOOK_MIB,
+            split ? "split" : reasons[choice->why]);
     if (choice->why == NOOK_PLAN_TWIN)
         fprintf(stream, " %s", r->volumes->volumes[choice->volume].name);
     fputc('\n', stream);
@@ -123,7 +123,7 @@ static void print_volumes(const nook_plan_report *r, FILE *stream)
         char name[32];
         snprintf(name, sizeof name, "static %u", i);
         fprintf(stream, "%-28s %5u %6s %6u %9s %9.3f  %u parts\n", name, 1u, "", group->resolution, "",
-                (double)group->bytes / mib, group->parts);
+                (double)group->bytes / NOOK_MIB, group->parts);
     }
 }
 
@@ -158,7 +158,7 @@ void nook_plan_report_print(const nook_plan_report *r, FILE *stream)
     print_volumes(r, stream);
     print_left_out(r, stream);
     fprintf(stream, "\n%.3f MiB of voxels instead of %.3f. Proven: no point changes by more than %.4f%s. ",
-            (double)r->plan->bytes / mib, (double)r->plan->bytes_before / mib, r->plan->bound,
+            (double)r->plan->bytes / NOOK_MIB, (double)r->plan->bytes_before / NOOK_MIB, r->plan->bound,
             p->mode == NOOK_PLAN_MEASURED ? " by what is left out" : "");
     fprintf(stream, "Measured: voxels of this size have an RMS of %.3f.\n", r->plan->level_error);
 }

@@ -118,8 +118,8 @@ static nook_result check_medium(const nook_medium *medium)
 {
     for (int axis = 0; axis < 3; axis++) {
         double side = medium->spacing[axis] * medium->size[axis];
-        if (medium->size[axis] == 0 || medium->size[axis] > NOOK_MEDIUM_SIDE_MAX || !(medium->spacing[axis] >= 1e-9) ||
-            !(side <= 1e9))
+        if (medium->size[axis] == 0 || medium->size[axis] > NOOK_MEDIUM_SIDE_MAX ||
+            !(medium->spacing[axis] >= NOOK_MEDIUM_SPACING_MIN) || !(side <= NOOK_MEDIUM_LENGTH_MAX))
             return nook_fail(NOOK_E_ARG, "medium: %u cells of %g m", medium->size[axis], medium->spacing[axis]);
     }
     uint64_t count = nook_medium_cells(medium);

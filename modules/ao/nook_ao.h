@@ -196,7 +196,7 @@ nook_result nook_ao_add_mesh_with_alphas(nook_ao *ao, const float *positions, ui
 /**
  * Keeps a copy of a medium for the reference, as a mesh without triangles: its rays are stopped in it with the probability of what it takes.
  * What marches volumes needs its densities besides (modules/bake/medium_bake.h, modules/ao/residency.h).
- * @return NOOK_E_ARG no cells, more than medium.h says, spacings under 1e-9 m, sides over 1e9 m, an extinction that is negative or
+ * @return NOOK_E_ARG no cells, more, smaller or longer in all than medium.h says, an extinction that is negative or
  *         not finite; NOOK_E_MEMORY
  */
 nook_result nook_ao_add_medium(nook_ao *ao, const nook_medium *medium, nook_ao_mesh *out_mesh);

@@ -1,3 +1,4 @@
+#include "engine/core/mebibyte.h"
 #include "modules/plan/plan_internal.h"
 #include <math.h>
 #include <stdlib.h>
@@ -143,7 +144,7 @@ nook_result plan_group_parts(const nook_plan_scene *scene, nook_plan *plan)
     joining best = { .groups = calloc(scene->part_count, sizeof *best.groups),
                      .group_of_part = plan->group_of_part,
                      .voxel = plan_voxel_metres(&scene->volumes[whole], plan->volumes[whole].resolution),
-                     .least_saved = (double)plan->params.split * 1024.0 * 1024.0 };
+                     .least_saved = (double)plan->params.split * NOOK_MIB };
     joining j = best;
     j.count = scene->part_count;
     j.groups = calloc(scene->part_count, sizeof *j.groups);

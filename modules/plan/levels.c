@@ -1,4 +1,5 @@
 #include "engine/core/log.h"
+#include "engine/core/mebibyte.h"
 #include "modules/plan/plan_internal.h"
 #include <math.h>
 
@@ -200,15 +201,14 @@ static bool coarsen(const nook_plan_scene *scene, nook_plan *plan)
 
 nook_result plan_fit_memory(const nook_plan_scene *scene, nook_plan *plan)
 {
-    static const double mib = 1024.0 * 1024.0;
     double allowed = (double)plan->params.memory;
     sum_up(scene, plan);
     bool coarser = plan->params.mode == NOOK_PLAN_MEASURED;
-    while (coarser && (double)plan->bytes > allowed * mib && coarsen(scene, plan))
+    while (coarser && (double)plan->bytes > allowed * NOOK_MIB && coarsen(scene, plan))
         sum_up(scene, plan);
-    if (plan->params.mode == NOOK_PLAN_OFF || (double)plan->bytes <= allowed * mib)
+    if (plan->params.mode == NOOK_PLAN_OFF || (double)plan->bytes <= allowed * NOOK_MIB)
         return NOOK_OK;
-    double need = ceil((double)plan->bytes / mib * 1e3) * 1e-3;
+    double need = ceil((double)plan->bytes / NOOK_MIB * 1e3) * 1e-3;
     if (coarser)
         return nook_fail(
             NOOK_E_RANGE,

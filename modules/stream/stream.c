@@ -1,17 +1,16 @@
 #include "modules/stream/stream.h"
 #include "engine/core/log.h"
+#include "engine/core/mebibyte.h"
 #include "modules/stream/stream_internal.h"
 #include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const double bytes_per_mib = 1024.0 * 1024.0;
-
 /* ---- Items --------------------------------------------------------------------------------------------------------- */
 
 uint64_t stream_budget_bytes(const nook_stream *stream)
 {
-    double budget = (double)stream->params.budget * bytes_per_mib;
+    double budget = (double)stream->params.budget * NOOK_MIB;
     return budget > 0.0 ? (uint64_t)budget : UINT64_MAX;
 }
 

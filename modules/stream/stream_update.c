@@ -1,7 +1,6 @@
 /* A frame's work. */
+#include "engine/core/mebibyte.h"
 #include "modules/stream/stream_internal.h"
-
-static const double bytes_per_mib = 1024.0 * 1024.0;
 
 enum { TRIES = 8 /* of a frame, to find places */ };
 
@@ -173,7 +172,7 @@ static void arrive(nook_stream *stream, stream_item *item)
 
 static nook_result upload(nook_stream *stream)
 {
-    size_t left = (size_t)((double)stream->params.upload * bytes_per_mib);
+    size_t left = (size_t)((double)stream->params.upload * NOOK_MIB);
     stream->frame_upload = 0;
     for (;;) {
         nook_volume *contents = NULL;
