@@ -27,6 +27,17 @@ static uint32_t count_bits(uint32_t word)
     return ((word + (word >> 4)) & 0x0f0f0f0fu) * 0x01010101u >> 24;
 }
 
+uint32_t nook_brick_count(const nook_brick *brick)
+{
+    return count_bits(brick->mask[0]) + count_bits(brick->mask[1]);
+}
+
+uint32_t nook_brick_count_below(const nook_brick *brick, uint32_t bit)
+{
+    uint32_t below = count_bits(brick->mask[bit >> 5] & ((1u << (bit & 31)) - 1));
+    return bit < 32 ? below : below + count_bits(brick->mask[0]);
+}
+
 enum { NEIGHBOURS = 13 }; /* the half of 26 that comes before the middle */
 
 /* One more than the least of the neighbours of a brick, but no more than it has. @param offset  to them */
@@ -92,7 +103,7 @@ uint64_t nook_bricks_number(nook_brick *bricks, const uint32_t counts[3])
     farthest = counts[2] > farthest ? counts[2] : farthest;
     for (size_t i = 0; i < total; i++) {
         nook_brick *brick = &bricks[i];
-        uint32_t occupied = count_bits(brick->mask[0]) + count_bits(brick->mask[1]);
+        uint32_t occupied = nook_brick_count(brick);
         brick->first_surfel = surfels;
         brick->skip = occupied ? 0 : farthest;
         surfels += occupied;

@@ -223,20 +223,6 @@ static void make_units(void *user, size_t first, size_t last, unsigned worker)
 
 /* ---- Putting it together ----------------------------------------------------------------------------------------- */
 
-static uint32_t count_bits(uint32_t bits)
-{
-    uint32_t count = 0;
-    for (; bits; bits &= bits - 1)
-        count++;
-    return count;
-}
-
-static uint32_t bits_below(const nook_brick *brick, uint32_t bit)
-{
-    uint32_t below = count_bits(brick->mask[bit >> 5] & ((1u << (bit & 31)) - 1));
-    return bit < 32 ? below : below + count_bits(brick->mask[0]);
-}
-
 /*
  * Which voxels of a changed brick were made: those that are merged into changed bricks of the coarsest level, of whose border bricks of this
  * one may stand out. What lies there no changed triangle touches.
@@ -268,10 +254,9 @@ static size_t keep_masks(const pass *p, uint32_t level, size_t brick_count, nook
         uint32_t made[2] = { 0, 0 };
         if (is_changed(p, level, i))
             find_made(p, level, i, made);
-        for (int word = 0; word < 2; word++) {
+        for (int word = 0; word < 2; word++)
             bricks[i].mask[word] = before[i].mask[word] & ~made[word];
-            count += count_bits(bricks[i].mask[word]);
-        }
+        count += nook_brick_count(&bricks[i]);
     }
     return count;
 }
@@ -281,15 +266,15 @@ static void keep_surfels(const nook_volume *before, size_t brick_count, nook_vol
 {
     for (size_t i = 0; i < brick_count; i++) {
         const nook_brick *from = &before->bricks[i], *to = &volume->bricks[i];
-        const size_t count = count_bits(from->mask[0]) + count_bits(from->mask[1]);
+        const size_t count = nook_brick_count(from);
         const bool whole = memcmp(from->mask, to->mask, sizeof from->mask) == 0;
         if (whole && count)
             memcpy(volume->surfels + to->first_surfel, before->surfels + from->first_surfel,
                    count * sizeof *volume->surfels);
         for (uint32_t bit = 0; bit < 64 && count && !whole; bit++)
             if ((from->mask[bit >> 5] & to->mask[bit >> 5]) >> (bit & 31) & 1)
-                volume->surfels[to->first_surfel + bits_below(to, bit)] =
-                    before->surfels[from->first_surfel + bits_below(from, bit)];
+                volume->surfels[to->first_surfel + nook_brick_count_below(to, bit)] =
+                    before->surfels[from->first_surfel + nook_brick_count_below(from, bit)];
     }
 }
 
@@ -331,7 +316,8 @@ static bool join(const pass *p, unsigned workers, uint32_t level, nook_volume *o
         const records *made = &p->workers[w].made[level];
         for (size_t i = 0; i < made->count; i++) {
             const nook_brick *brick = &volume.bricks[made->items[i].place >> 6];
-            volume.surfels[brick->first_surfel + bits_below(brick, made->items[i].place & 63)] = made->items[i].surfel;
+            volume.surfels[brick->first_surfel + nook_brick_count_below(brick, made->items[i].place & 63)] =
+                made->items[i].surfel;
         }
     }
     *out = volume;
