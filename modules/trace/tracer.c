@@ -222,57 +222,56 @@ nook_result nook_tracer_update_triangles(nook_tracer *t, const float *positions,
     return check_device(t);
 }
 
-static void fill_packet(const float origin[3], const float directions[3][NOOK_TRACER_PACKET], float limit,
-                        struct RTCRayHit8 *packet)
+/* A question to Embree. */
+typedef struct packet {
+    struct RTCIntersectContext context;
+    struct RTCRayHit8 rays;
+    _Alignas(32) int valid[NOOK_TRACER_PACKET]; /* -1: asked for */
+} packet;
+
+static void fill_packet(const float origin[3], const float directions[3][NOOK_TRACER_PACKET], uint32_t count,
+                        float limit, packet *out)
 {
-    for (int i = 0; i < NOOK_TRACER_PACKET; i++) {
-        packet->ray.org_x[i] = origin[0], packet->ray.org_y[i] = origin[1], packet->ray.org_z[i] = origin[2];
-        packet->ray.dir_x[i] = directions[0][i];
-        packet->ray.dir_y[i] = directions[1][i];
-        packet->ray.dir_z[i] = directions[2][i];
-        packet->ray.tfar[i] = limit;
-        packet->ray.mask[i] = ~0u;
-        packet->hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-        packet->hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+    *out = (packet){ .valid = { 0 } };
+    rtcInitIntersectContext(&out->context);
+    for (uint32_t i = 0; i < NOOK_TRACER_PACKET; i++) {
+        struct RTCRay8 *ray = &out->rays.ray;
+        ray->org_x[i] = origin[0], ray->org_y[i] = origin[1], ray->org_z[i] = origin[2];
+        ray->dir_x[i] = directions[0][i], ray->dir_y[i] = directions[1][i], ray->dir_z[i] = directions[2][i];
+        ray->tfar[i] = limit;
+        ray->mask[i] = ~0u;
+        out->rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+        out->rays.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+        out->valid[i] = i < count ? -1 : 0;
     }
 }
 
 void nook_tracer_distances(const nook_tracer *t, const float origin[3], const float directions[3][NOOK_TRACER_PACKET],
                            uint32_t count, float limit, int any, float *out)
 {
-    struct RTCIntersectContext context;
-    struct RTCRayHit8 packet = { 0 };
-    _Alignas(32) int valid[NOOK_TRACER_PACKET];
-    rtcInitIntersectContext(&context);
-    fill_packet(origin, directions, limit, &packet);
-    for (uint32_t i = 0; i < NOOK_TRACER_PACKET; i++)
-        valid[i] = i < count ? -1 : 0;
+    packet p;
+    fill_packet(origin, directions, count, limit, &p);
     if (any)
-        rtcOccluded8(valid, t->world, &context, &packet.ray);
+        rtcOccluded8(p.valid, t->world, &p.context, &p.rays.ray);
     else
-        rtcIntersect8(valid, t->world, &context, &packet);
+        rtcIntersect8(p.valid, t->world, &p.context, &p.rays);
     for (uint32_t i = 0; i < count; i++) {
         if (any)
-            out[i] = packet.ray.tfar[i] < 0.0f ? 0.0f : INFINITY;
+            out[i] = p.rays.ray.tfar[i] < 0.0f ? 0.0f : INFINITY;
         else
-            out[i] = packet.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID ? INFINITY : packet.ray.tfar[i];
+            out[i] = p.rays.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID ? INFINITY : p.rays.ray.tfar[i];
     }
 }
 
 void nook_tracer_hits(const nook_tracer *t, const float origin[3], const float directions[3][NOOK_TRACER_PACKET],
                       uint32_t count, float limit, float *out_distances, uint32_t *out_instances)
 {
-    struct RTCIntersectContext context;
-    struct RTCRayHit8 packet = { 0 };
-    _Alignas(32) int valid[NOOK_TRACER_PACKET];
-    rtcInitIntersectContext(&context);
-    fill_packet(origin, directions, limit, &packet);
-    for (uint32_t i = 0; i < NOOK_TRACER_PACKET; i++)
-        valid[i] = i < count ? -1 : 0;
-    rtcIntersect8(valid, t->world, &context, &packet);
+    packet p;
+    fill_packet(origin, directions, count, limit, &p);
+    rtcIntersect8(p.valid, t->world, &p.context, &p.rays);
     for (uint32_t i = 0; i < count; i++) {
-        bool hit = packet.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
-        out_distances[i] = hit ? packet.ray.tfar[i] : INFINITY;
-        out_instances[i] = hit ? packet.hit.instID[0][i] : UINT32_MAX;
+        bool hit = p.rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
+        out_distances[i] = hit ? p.rays.ray.tfar[i] : INFINITY;
+        out_instances[i] = hit ? p.rays.hit.instID[0][i] : UINT32_MAX;
     }
 }
