@@ -6,8 +6,8 @@
  *
  * Animation     What a clip moves is a body. A mesh that skins or morph targets deform while it plays is voxelised every
  *               frame (game/live_volumes.h); one that stands still in a pose has one like any other (engine/animation/scene_stand.h).
- * Materials     Masked ones are in, with their holes (distances: whole). Blended ones are in densities and surfels with their alpha, and left
- *               out of voxels and distances, which would make glass as dark as a wall.
+ * Materials     Masked ones are in, with their holes. Blended ones are in densities and surfels with their alpha, in distances where that is at
+ *               least a half, and left out of voxels, which would make glass as dark as a wall.
  * Densities     of the scene (nook_density) come last. They are in no cache: who uploads them bakes them (modules/bake/medium_bake.h).
  * Resolution    follows from r_max: finer than r_max / NOOK_VOLUMES_VOXELS_PER_R_MAX cannot be told apart in the result. The static
  *               volume takes the `resolution` asked for on its longest side. A body takes as many voxels as make them that

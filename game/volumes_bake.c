@@ -23,7 +23,7 @@ nook_result nook_volumes_check_kept(const nook_volumes_desc *desc, const nook_ba
 
 bool nook_volumes_holds_blended(nook_volume_kind kind)
 {
-    return kind == NOOK_VOLUME_DENSITY || kind == NOOK_VOLUME_SURFEL;
+    return kind != NOOK_VOLUME_BINARY;
 }
 
 void nook_volumes_select(const nook_scene_volume *volume, nook_volume_kind kind, nook_triangles *out_triangles,

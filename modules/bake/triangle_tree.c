@@ -81,42 +81,27 @@ static void make_boxes(nook_triangle_tree *tree)
     }
 }
 
-/* @return how many are finite */
-static uint32_t snap_all(const nook_triangles *triangles, const nook_grid_frame *frame, nook_snapped_triangle *out,
-                         coded *out_codes)
+nook_triangle_tree *nook_triangle_tree_create(const nook_snapped_triangle *triangles, size_t count)
 {
-    uint32_t count = 0;
-    for (size_t t = 0; t < triangles->index_count / 3; t++) {
-        if (!nook_grid_snap(frame, triangles, t, &out[count]))
-            continue;
-        out_codes[count] = (coded){ code_of(&out[count]), count };
-        count++;
-    }
-    return count;
-}
-
-nook_triangle_tree *nook_triangle_tree_create(const nook_triangles *triangles, const nook_grid_frame *frame)
-{
-    size_t most = triangles->index_count / 3;
     nook_triangle_tree *tree = calloc(1, sizeof *tree);
-    nook_snapped_triangle *snapped = malloc((most + 1) * sizeof *snapped);
-    coded *codes = malloc((most + 1) * sizeof *codes);
+    coded *codes = malloc((count + 1) * sizeof *codes);
     if (tree) {
         tree->leaf_count = 1;
-        while ((size_t)tree->leaf_count * LEAF < most)
+        while ((size_t)tree->leaf_count * LEAF < count)
             tree->leaf_count *= 2;
-        tree->triangles = malloc((most + 1) * sizeof *tree->triangles);
+        tree->triangles = malloc((count + 1) * sizeof *tree->triangles);
         tree->boxes = malloc(2 * (size_t)tree->leaf_count * sizeof *tree->boxes);
     }
-    bool made = tree && snapped && codes && tree->triangles && tree->boxes;
+    bool made = tree && codes && tree->triangles && tree->boxes;
     if (made) {
-        tree->count = snap_all(triangles, frame, snapped, codes);
+        tree->count = (uint32_t)count;
+        for (uint32_t i = 0; i < tree->count; i++)
+            codes[i] = (coded){ code_of(&triangles[i]), i };
         qsort(codes, tree->count, sizeof *codes, compare_codes);
         for (uint32_t i = 0; i < tree->count; i++)
-            tree->triangles[i] = snapped[codes[i].triangle];
+            tree->triangles[i] = triangles[codes[i].triangle];
         make_boxes(tree);
     }
-    free(snapped);
     free(codes);
     if (made)
         return tree;

@@ -1,5 +1,5 @@
 /**
- * triangle_tree.h - how far the nearest triangle of a soup is: a tree of boxes; inside modules/bake only.
+ * triangle_tree.h - how far the nearest of some triangles is: a tree of boxes; inside modules/bake only.
  */
 #pragma once
 #include "modules/bake/triangle_grid.h"
@@ -10,8 +10,8 @@ extern "C" {
 
 typedef struct nook_triangle_tree nook_triangle_tree;
 
-/** Of the triangles whose corners are finite, degenerate ones too: they are segments and points. @return NULL when there is no memory */
-nook_triangle_tree *nook_triangle_tree_create(const nook_triangles *triangles, const nook_grid_frame *frame);
+/** Copies the triangles. Degenerate ones are segments and points. @return NULL when there is no memory */
+nook_triangle_tree *nook_triangle_tree_create(const nook_snapped_triangle *triangles, size_t count);
 void nook_triangle_tree_destroy(nook_triangle_tree *tree); /**< NULL is allowed. */
 
 /**

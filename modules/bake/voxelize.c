@@ -123,6 +123,7 @@ static nook_result voxelize_binary(const nook_triangles *triangles, const nook_v
 static bool looks_at_alphas(const nook_voxelize_desc *desc)
 {
     return desc->kind == NOOK_VOLUME_DENSITY || desc->kind == NOOK_VOLUME_SURFEL ||
+           (desc->kind == NOOK_VOLUME_DISTANCE && desc->alphas && desc->alphas->part_count > 0) ||
            (desc->kind == NOOK_VOLUME_BINARY && has_masks(desc->alphas));
 }
 
@@ -168,7 +169,7 @@ static nook_result make_kind(const nook_triangles *triangles, const nook_voxeliz
     case NOOK_VOLUME_SURFEL:
         return nook_surfel_bake(triangles, desc, frame, out_volume);
     case NOOK_VOLUME_DISTANCE:
-        return nook_distance_bake(triangles, desc->threads, frame, out_volume);
+        return nook_distance_bake(triangles, desc->alphas, desc->threads, frame, out_volume);
     }
     return voxelize_binary(triangles, desc, frame, out_volume);
 }

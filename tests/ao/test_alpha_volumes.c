@@ -2,6 +2,7 @@
 #include "tests/support/ao_fixture.h"
 #include "tests/support/test_mask.h"
 #include <math.h>
+#include <string.h>
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -113,6 +114,44 @@ static void test_voxels_and_densities_take_half_through_coarse_fields(void **sta
     }
 }
 
+/* A grating of bars as wide as its holes. Distances are hit within some half a voxel of a bar's ends, in holes of 16 voxels: docs/volume_kinds.md. */
+static void test_distances_take_half_through_a_grating_coarser_than_a_voxel(void **state)
+{
+    ao_fixture *fixture = prepare(state, "distance");
+    checker c;
+    make_checker(&c, 2);
+    c.texels[2] = 0, c.texels[3] = 255; /* the same in both rows */
+    add_ceiling(fixture, &c.alphas, 0.0);
+    double truth = mean_of(fixture, "reference"), mean = mean_of(fixture, "volume");
+    print_message("distance %.4f, truth %.4f\n", mean, truth);
+    assert_true(fabs(mean - truth) < 0.06);
+}
+
+/* What is nearer to a wall is one, what is nearer to nothing is nothing: holes of half a voxel. */
+static void test_distances_round_a_fine_grating_and_glass_to_a_wall_or_to_nothing(void **state)
+{
+    ao_fixture *fixture = prepare(state, "distance");
+    add_ceiling(fixture, NULL, 0.0);
+    const double wall = mean_of(fixture, "volume");
+    assert_true(fabs(wall - opaque) < error);
+    static const struct {
+        uint8_t texels[4];
+        double transparency;
+        bool there;
+    } cases[] = { { { 0, 255, 255, 255 }, 0.0, true },
+                  { { 0, 255, 0, 0 }, 0.0, false },
+                  { { 0 }, 0.4, true },
+                  { { 0 }, 0.6, false } };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        checker c;
+        make_checker(&c, 64);
+        memcpy(c.texels, cases[i].texels, sizeof c.texels);
+        ao_fixture_clear(fixture);
+        add_ceiling(fixture, cases[i].transparency > 0.0 ? NULL : &c.alphas, cases[i].transparency);
+        assert_true(mean_of(fixture, "volume") == (cases[i].there ? wall : 0.0));
+    }
+}
+
 static void test_parts_out_of_order_are_refused(void **state)
 {
     ao_fixture *fixture = prepare(state, "surfel");
@@ -139,6 +178,8 @@ int main(void)
         cmocka_unit_test(test_glass_takes_its_alpha_of_what_a_wall_takes),
         cmocka_unit_test(test_the_reference_sees_glass_alike_every_time),
         cmocka_unit_test(test_voxels_and_densities_take_half_through_coarse_fields),
+        cmocka_unit_test(test_distances_take_half_through_a_grating_coarser_than_a_voxel),
+        cmocka_unit_test(test_distances_round_a_fine_grating_and_glass_to_a_wall_or_to_nothing),
         cmocka_unit_test(test_parts_out_of_order_are_refused),
     };
     return cmocka_run_group_tests(tests, ao_fixture_setup, ao_fixture_teardown);
