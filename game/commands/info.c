@@ -5,6 +5,7 @@
 #include "game/commands/commands.h"
 #include "game/commands/info_scalar.h"
 #include "game/option_rows.h"
+#include "modules/ao/residency.h"
 #include "modules/bake/volume_file.h"
 #include <inttypes.h>
 #include <stdio.h>
@@ -179,9 +180,11 @@ static int show_scene(const char *path, bool as_json)
 
 static int print_volume(const char *path, const nook_volume_info *info, size_t file_size, bool as_json)
 {
-    uint64_t bytes = (uint64_t)info->width * info->height * info->depth;
+    const uint64_t bytes = nook_volume_gpu_bytes(info);
+    char kind[32];
+    snprintf(kind, sizeof kind, "%s volume", nook_volume_kind_name(info->kind));
     if (!as_json) {
-        printf("%-12s %s\n%-12s binary volume\n", "path", path, "kind");
+        printf("%-12s %s\n%-12s %s\n", "path", path, "kind", kind);
         printf("%-12s %u %u %u\n", "size", info->width, info->height, info->depth);
         printf("%-12s %" PRIu64 "\n%-12s %zu\n", "bytes", bytes, "file_bytes", file_size);
         printf("%-12s %.6g m\n", "voxel_size", info->voxel_size);
@@ -193,7 +196,7 @@ static int print_volume(const char *path, const nook_volume_info *info, size_t f
     const double size[3] = { info->width, info->height, info->depth };
     nook_json_begin_object(&json);
     nook_json_member_string(&json, "path", path);
-    nook_json_member_string(&json, "kind", "binary volume");
+    nook_json_member_string(&json, "kind", kind);
     nook_json_key(&json, "size");
     nook_json_numbers(&json, size, 3);
     nook_json_member_integer(&json, "bytes", (int64_t)bytes);

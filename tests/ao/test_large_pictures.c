@@ -35,6 +35,39 @@ static float paint_constant(const ao_probe *probe, uint32_t x, uint32_t y)
     return probe->painted;
 }
 
+/** What each pixel fetches, in an array of PIXELS. */
+static uint32_t *count_fetches(nook_fixture_view *view, const char *refine)
+{
+    nook_texture image;
+    uint32_t *fetches = calloc(PIXELS, sizeof *fetches);
+    assert_non_null(fetches);
+    ao_view_param(view, "ao.refine", refine);
+    assert_int_equal(nook_texture_create_2d(view->gpu, GL_R32UI, WIDTH, HEIGHT, GL_NEAREST, &image), NOOK_OK);
+    nook_texture_write(view->gpu, image, GL_RED_INTEGER, GL_UNSIGNED_INT, fetches, PIXELS * sizeof *fetches);
+    view->fetches = (nook_ao_texture){ image.id, WIDTH, HEIGHT };
+    ao_view_record(view, "probe");
+    nook_texture_read(view->gpu, image, GL_RED_INTEGER, GL_UNSIGNED_INT, fetches, PIXELS * sizeof *fetches);
+    view->fetches = (nook_ao_texture){ 0 };
+    nook_texture_destroy(view->gpu, &image);
+    return fetches;
+}
+
+/** Candidates fetch as many texels more as one another, and the other pixels none. */
+static void expect_refined_once(nook_fixture_view *view, uint32_t candidates)
+{
+    uint32_t *without = count_fetches(view, "off"), *with = count_fetches(view, "around"), more = 0, found = 0;
+    for (uint32_t i = 0; i < PIXELS; i++) {
+        if (with[i] == without[i])
+            continue;
+        more = more ? more : with[i] - without[i];
+        assert_int_equal(with[i] - without[i], more);
+        found++;
+    }
+    assert_int_equal(found, candidates);
+    free(without);
+    free(with);
+}
+
 static void test_each_of_very_many_candidates_is_refined(void **state)
 {
     nook_fixture_view *view = *state;
@@ -52,6 +85,7 @@ static void test_each_of_very_many_candidates_is_refined(void **state)
     assert_int_equal(head[0], GROUPS_MAX);
     for (uint32_t i = 0; i < PIXELS; i++)
         assert_true(view->visibility[i] == 0.7123456f);
+    expect_refined_once(view, head[3]);
     ao_view_probe(view)->paint = NULL;
     ao_view_param(view, "ao.refine", "off");
 }

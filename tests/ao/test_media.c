@@ -91,6 +91,30 @@ static void test_twice_the_thickness_lets_through_the_square(void **state)
     assert_true(fabs(1.0 - measure(thin, "volume") - once * once) < 0.003);
 }
 
+/* Voxels of an eighth of r_max. Taken where a ray comes into each, it would be 0.627. */
+static void test_what_a_medium_takes_fades_with_the_way_to_it(void **state)
+{
+    ao_fixture *fixture = prepare(state, "1");
+    ao_fixture_param(fixture, "ao.falloff", "linear");
+    add_cube(fixture, 2.0, 0.0, 2.0, 0.0);
+    const double truth = 1.0 - (1.0 - exp(-2.0)) / 2.0; /* the integral of 2 exp(-2 t) (1 - t) over a ray of 1 m */
+    assert_true(fabs(measure(fixture, "volume") - truth) < 0.005);
+    assert_true(fabs(measure(fixture, "reference") - truth) < 0.01);
+}
+
+/*
+ * So far stretched along x that directions are 1e-10 along it, to either side. What a medium takes from one end to the other stays: of a ray's
+ * metre counts what lies across x. That is 0.3433 by the cosine: the mean of 1 - exp(-0.5 sqrt(1 - x^2)) over the unit disc.
+ */
+static void test_a_ray_that_hardly_moves_along_an_axis_of_a_medium_stays_in_it(void **state)
+{
+    ao_fixture *fixture = prepare(state, "1");
+    add_cube(fixture, 8.0, 0.0, 0.5, 0.0);
+    fixture->view->occluders[0].world_from_mesh[0] *= 1e10;
+    fixture->view->occluders[0].world_from_mesh[12] *= 1e10;
+    assert_true(fabs(measure(fixture, "volume") - 0.3433) < 0.003);
+}
+
 static void test_volume_and_reference_see_the_same_cube_overhead(void **state)
 {
     static const char *const falloffs[] = { "hard", "linear" };
@@ -191,6 +215,8 @@ int main(void)
         cmocka_unit_test(test_a_homogeneous_cube_around_the_point_takes_what_its_reach_says),
         cmocka_unit_test(test_drawn_boxes_see_a_medium_as_dispatches_do),
         cmocka_unit_test(test_twice_the_thickness_lets_through_the_square),
+        cmocka_unit_test(test_what_a_medium_takes_fades_with_the_way_to_it),
+        cmocka_unit_test(test_a_ray_that_hardly_moves_along_an_axis_of_a_medium_stays_in_it),
         cmocka_unit_test(test_volume_and_reference_see_the_same_cube_overhead),
         cmocka_unit_test(test_a_cube_below_or_out_of_reach_darkens_nothing),
         cmocka_unit_test(test_two_media_in_one_place_multiply),

@@ -70,6 +70,13 @@ static void all_creep(nook_fixture_view *view, int frame)
     place(view, 2, 0.2, -1.3, 1.7, 0.01 * frame);
 }
 
+/* Over the floor, whose points lie in its box. */
+static void one_slides(nook_fixture_view *view, int frame)
+{
+    one_walks(view, 0);
+    place(view, 0, 1.2 - 0.15 * frame, -1.0, 0.16, 0.0);
+}
+
 /* Far apart in each frame: what matters is where it was and is. */
 static void one_jumps(nook_fixture_view *view, int frame)
 {
@@ -219,6 +226,11 @@ static void test_what_a_body_darkens_that_floats_could_not_hold_has_no_lag(void 
     expect_no_lag(*state, one_comes_from_beyond);
 }
 
+static void test_where_a_point_lies_in_the_box_of_what_moves_no_value_is_off_by_more(void **state)
+{
+    expect_bounded(*state, "one slides", one_slides, 4);
+}
+
 static void test_an_error_that_is_none_is_refused(void **state)
 {
     static const double wrong[] = { -0.01, 1.01, NAN };
@@ -245,6 +257,7 @@ int main(void)
         cmocka_unit_test(test_whatever_is_marched_is_bounded),
         cmocka_unit_test(test_what_a_body_that_moves_darkens_has_no_lag),
         cmocka_unit_test(test_what_a_body_darkens_that_floats_could_not_hold_has_no_lag),
+        cmocka_unit_test(test_where_a_point_lies_in_the_box_of_what_moves_no_value_is_off_by_more),
         cmocka_unit_test(test_an_error_that_is_none_is_refused),
     };
     return cmocka_run_group_tests(tests, setup, ao_view_teardown);

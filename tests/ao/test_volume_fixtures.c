@@ -141,14 +141,14 @@ static void expect(ao_fixture *fixture, double truth)
 }
 
 /**
- * The foot of a thick wall whose face lies at `phase` of a voxel of 1, a fiftieth of a voxel from it, seen from between wall and floor. The
- * floor itself has no volume.
+ * The foot of a thick wall whose face lies at `phase` of a voxel of 1, a fiftieth of a voxel from it, seen from between wall and floor from so
+ * far. The floor itself has no volume.
  */
-static double measure_foot(ao_fixture *fixture, const char *guard, double phase)
+static double measure_foot(ao_fixture *fixture, const char *guard, double phase, double distance)
 {
     nook_fixture_view *view = fixture->view;
     nook_fixture_mesh mesh = { 0 };
-    const double eye[3] = { 6, 3, 6 }, distance = 9;
+    const double eye[3] = { distance * 2 / 3, distance / 3, distance * 2 / 3 };
     ao_fixture_clear(fixture);
     nook_fixture_add_box(&mesh, (double[]){ -4, -24, -24 }, (double[]){ -0.02, 24, 24 }, 63);
     for (int side = 0; side < 2; side++) { /* two specks fix the grid */
@@ -171,11 +171,24 @@ static void test_volume_sees_half_of_the_sky_at_the_foot_of_a_wall_when_its_star
     ao_fixture *fixture = prepare(state, "union", "16");
     double lifted = 0.0, seen = 0.0;
     for (int phase = 0; phase < 16; phase++) {
-        lifted = fmax(lifted, fabs(measure_foot(fixture, "lifted", phase / 16.0) - 0.5));
-        seen = fmax(seen, fabs(measure_foot(fixture, "seen", phase / 16.0) - 0.5));
+        lifted = fmax(lifted, fabs(measure_foot(fixture, "lifted", phase / 16.0, 9) - 0.5));
+        seen = fmax(seen, fabs(measure_foot(fixture, "seen", phase / 16.0, 9) - 0.5));
     }
     assert_true(lifted > 0.2); /* else the wall's voxels do not cover the start */
     assert_true(seen < 0.02);
+}
+
+/* All ways out of the wall's voxels are longer: half a voxel is the least. */
+static void test_a_start_is_not_moved_past_the_eye(void **state)
+{
+    ao_fixture *fixture = prepare(state, "union", "16");
+    double most = 0.0;
+    for (int phase = 0; phase < 16; phase++) {
+        double lifted = measure_foot(fixture, "lifted", phase / 16.0, 0.3);
+        assert_true(measure_foot(fixture, "seen", phase / 16.0, 0.3) == lifted);
+        most = fmax(most, fabs(lifted - 0.5));
+    }
+    assert_true(most > 0.2); /* as above: from farther away it would be moved */
 }
 
 static void test_volume_union_counts_a_wall_once_and_multiply_squares_it(void **state)
@@ -317,6 +330,7 @@ int main(void)
         cmocka_unit_test(test_volume_sees_nothing_above_a_floor_by_corners),
         cmocka_unit_test(test_volume_is_closed_in_a_closed_box_within_eight_voxels),
         cmocka_unit_test(test_volume_sees_half_of_the_sky_at_the_foot_of_a_wall_when_its_start_is_moved_to_the_eye),
+        cmocka_unit_test(test_a_start_is_not_moved_past_the_eye),
         cmocka_unit_test(test_volume_union_counts_a_wall_once_and_multiply_squares_it),
         cmocka_unit_test(test_volume_union_adds_opposite_walls_and_multiply_falls_short),
         cmocka_unit_test(test_volume_combines_the_six_faces_of_a_cube_as_predicted),

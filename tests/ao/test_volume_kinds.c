@@ -211,6 +211,20 @@ static void test_distances_are_metres_whatever_the_matrix_does(void **state)
     }
 }
 
+/* So far stretched along x that directions are 1e-10 along it, to either side. */
+static void test_a_ray_that_hardly_moves_along_an_axis_meets_what_is_overhead(void **state)
+{
+    static const char *const walked[] = { "density", "distance", "surfel" };
+    for (int kind = 0; kind < 3; kind++) {
+        ao_fixture *fixture = prepare(state, walked[kind], "1");
+        add_pane(fixture, 0.5, 4.0, 0.0, 0.0);
+        fixture->view->occluders[0].world_from_mesh[0] = 1e10;
+        double occlusion = measure(fixture).mean;
+        if (!(fabs(occlusion - 0.75) < 0.03)) /* of it 0.02 by a lift of 0.15 voxels of 1/16 m */
+            fail_msg("%s: %.4f", walked[kind], occlusion);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -225,6 +239,7 @@ int main(void)
         cmocka_unit_test(test_without_own_distance_rough_floors_of_densities_darken_themselves),
         cmocka_unit_test(test_the_nearer_of_two_volumes_counts_in_any_order),
         cmocka_unit_test(test_distances_are_metres_whatever_the_matrix_does),
+        cmocka_unit_test(test_a_ray_that_hardly_moves_along_an_axis_meets_what_is_overhead),
     };
     return cmocka_run_group_tests(tests, ao_fixture_setup, ao_fixture_teardown);
 }

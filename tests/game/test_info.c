@@ -8,7 +8,7 @@
 #include "engine/asset/json_tree.h"
 #include "engine/core/file.h"
 #include "game/commands/commands.h"
-#include "modules/bake/volume_file.h"
+#include "modules/bake/voxelize.h"
 #include "tests/support/log_capture.h"
 #include "tests/support/scratch.h"
 #include "tests/support/test_glb.h"
@@ -165,6 +165,7 @@ static void test_a_baked_volume_is_described(void **state)
     run r = run_info("--json", test_bytes_write("made.nkv", bytes, size));
     assert_int_equal(r.exit_code, NOOK_EXIT_OK);
     assert_int_equal(nook_json_tree_read("output", r.output, strlen(r.output), 16, &tree), NOOK_OK);
+    assert_true(nook_json_tree_string_is(&tree, nook_json_tree_find(&tree, 0, "kind"), "binary volume"));
     assert_int_equal(integer_of(&tree, "bytes"), 36);
     assert_int_equal(integer_of(&tree, "file_bytes"), size);
     assert_int_equal(integer_of(&tree, "occupied"), 1);
@@ -174,6 +175,32 @@ static void test_a_baked_volume_is_described(void **state)
     assert_int_equal(r.log.errors, 1);
     assert_string_equal(r.output, "");
     free(bytes);
+}
+
+static void test_a_baked_volume_is_named_by_its_kind(void **state)
+{
+    (void)state;
+    const uint32_t kinds[] = { NOOK_VOLUME_DENSITY, NOOK_VOLUME_SURFEL };
+    const char *const expected[] = { "kind         density volume\n", "kind         surfel volume\n" };
+    /* A byte a voxel; 16 for the brick and 8 for each of three surfels. */
+    const char *const memory[] = { "bytes        48\n", "bytes        40\n" };
+    for (int i = 0; i < 2; i++) {
+        const float corners[9] = { 0, 0, 0, 1, 0, 0, 0, 1, 0 };
+        const uint32_t indices[3] = { 0, 1, 2 };
+        const nook_triangles triangles = { corners, 0, 3, indices, 3 };
+        const nook_voxelize_desc desc = { .resolution = 2, .threads = 1, .kind = kinds[i] };
+        nook_volume volume;
+        void *bytes = NULL;
+        size_t size = 0;
+        assert_int_equal(nook_voxelize(&triangles, &desc, &volume), NOOK_OK);
+        assert_int_equal(nook_volume_encode(&volume, &bytes, &size), NOOK_OK);
+        run r = run_info(test_bytes_write("made.nkv", bytes, size), NULL);
+        assert_int_equal(r.exit_code, NOOK_EXIT_OK);
+        if (!strstr(r.output, expected[i]) || !strstr(r.output, memory[i]))
+            fail_msg("not in: %s", r.output);
+        nook_volume_free(&volume);
+        free(bytes);
+    }
 }
 
 static void test_a_scalar_volume_is_described(void **state)
@@ -209,6 +236,7 @@ int main(void)
         cmocka_unit_test(test_cameras_are_named_and_lights_counted_by_kind),
         cmocka_unit_test(test_an_empty_scene_has_no_box),
         cmocka_unit_test(test_a_baked_volume_is_described),
+        cmocka_unit_test(test_a_baked_volume_is_named_by_its_kind),
         cmocka_unit_test(test_a_scalar_volume_is_described),
         cmocka_unit_test(test_a_refused_file_is_one_line_and_exit_code_1),
     };
