@@ -134,13 +134,6 @@ static void test_two_panes_multiply_in_one_volume_and_in_two(void **state)
     assert_true(fabs(measure(fixture).mean - (1.0 - 0.6 * 0.6)) < 0.02);
 }
 
-static void test_other_kinds_take_a_pane_for_a_wall(void **state)
-{
-    ao_fixture *fixture = prepare(state, "distance", "1");
-    add_pane(fixture, 0.4, 4.0, 0.0, 0.6);
-    assert_true(fabs(measure(fixture).mean - 0.84) < 0.02);
-}
-
 /* ---- What the constants are for --------------------------------------------------------------------------------- */
 
 static void test_without_lift_floors_of_distances_darken_themselves(void **state)
@@ -233,7 +226,6 @@ int main(void)
         cmocka_unit_test(test_a_ceiling_takes_what_its_height_says),
         cmocka_unit_test(test_a_pane_takes_its_alpha_once_and_not_in_every_voxel),
         cmocka_unit_test(test_two_panes_multiply_in_one_volume_and_in_two),
-        cmocka_unit_test(test_other_kinds_take_a_pane_for_a_wall),
         cmocka_unit_test(test_without_lift_floors_of_distances_darken_themselves),
         cmocka_unit_test(test_without_own_share_rough_floors_of_distances_darken_themselves),
         cmocka_unit_test(test_without_own_distance_rough_floors_of_densities_darken_themselves),
