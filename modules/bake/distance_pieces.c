@@ -1,6 +1,7 @@
 #include "modules/bake/distance_pieces.h"
 #include "engine/core/vector.h"
 #include "modules/bake/alpha_area.h"
+#include "modules/bake/polygon_layers.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -120,27 +121,6 @@ static bool is_there(const cutter *c)
 
 /* ---- Cutting ------------------------------------------------------------------------------------------------------ */
 
-static void find_layers(const cutter *c, const nook_polygon *polygon, int axis, int32_t *out_first, int32_t *out_last)
-{
-    double low = INFINITY, high = -INFINITY;
-    for (int i = 0; i < polygon->count; i++) {
-        low = fmin(low, polygon->corner[i][axis]);
-        high = fmax(high, polygon->corner[i][axis]);
-    }
-    *out_first = nook_grid_layer(low, c->frame->inner[axis]);
-    *out_last = nook_grid_layer(high, c->frame->inner[axis]);
-}
-
-/* What lies in a layer of voxels, and what lies above it. */
-static void take_layer(const nook_polygon *polygon, int axis, int32_t layer, int32_t last, nook_polygon *out_here,
-                       nook_polygon *out_above)
-{
-    *out_here = *polygon;
-    out_above->count = 0;
-    if (layer < last)
-        nook_polygon_split(polygon, axis, (layer + 1.0) * NOOK_SUBVOXEL - NOOK_LAYER_BIAS, out_here, out_above);
-}
-
 /* A fan of triangles. */
 static void add_polygon(cutter *c, const nook_polygon *polygon)
 {
@@ -159,11 +139,11 @@ static void add_polygon(cutter *c, const nook_polygon *polygon)
 static void cut_row(cutter *c, const nook_polygon *row)
 {
     int32_t first, last;
-    find_layers(c, row, 0, &first, &last);
+    nook_polygon_layers(row, 0, c->frame->inner[0], &first, &last);
     nook_polygon rest = *row, run = { .count = 0 };
     for (int32_t layer = first; layer <= last; layer++) {
         nook_polygon here, above;
-        take_layer(&rest, 0, layer, last, &here, &above);
+        nook_polygon_take_layer(&rest, 0, layer, last, &here, &above);
         c->voxel[0] = layer;
         if (here.count > 0 && c->measures) {
             measure(c, &here);
@@ -172,7 +152,7 @@ static void cut_row(cutter *c, const nook_polygon *row)
         } else if (here.count > 0) {
             nook_polygon ended, after;
             c->left_out = true;
-            take_layer(&run, 0, layer - 1, layer, &ended, &after);
+            nook_polygon_take_layer(&run, 0, layer - 1, layer, &ended, &after);
             add_polygon(c, &ended);
             run.count = 0;
         }
@@ -184,11 +164,11 @@ static void cut_row(cutter *c, const nook_polygon *row)
 static void cut_axis(cutter *c, const nook_polygon *polygon, int axis)
 {
     int32_t first, last;
-    find_layers(c, polygon, axis, &first, &last);
+    nook_polygon_layers(polygon, axis, c->frame->inner[axis], &first, &last);
     nook_polygon rest = *polygon;
     for (int32_t layer = first; layer <= last && rest.count > 0; layer++) {
         nook_polygon here, above;
-        take_layer(&rest, axis, layer, last, &here, &above);
+        nook_polygon_take_layer(&rest, axis, layer, last, &here, &above);
         c->voxel[axis] = layer;
         if (here.count > 0 && axis > 1)
             cut_axis(c, &here, axis - 1);

@@ -2,6 +2,7 @@
 #include "engine/core/jobs.h"
 #include "engine/core/vector.h"
 #include "modules/bake/brick_grid.h"
+#include "modules/bake/polygon_layers.h"
 #include <math.h>
 #include <string.h>
 
@@ -70,25 +71,13 @@ static bool read_triangle(const nook_surfel_source *source, size_t triangle, pla
     return nook_vector_normalize(across, out->normal);
 }
 
-static void find_range(const nook_polygon *polygon, int axis, int32_t inner, int32_t *out_first, int32_t *out_last)
-{
-    double low = INFINITY, high = -INFINITY;
-    for (int i = 0; i < polygon->count; i++) {
-        const double at = polygon->corner[i][axis];
-        low = at < low ? at : low;
-        high = at > high ? at : high;
-    }
-    *out_first = nook_grid_layer(low, inner);
-    *out_last = nook_grid_layer(high, inner);
-}
-
 bool nook_surfel_reach(const nook_surfel_source *source, size_t triangle, int32_t out_slabs[2])
 {
     placed p;
     int32_t low, high;
     if (!read_triangle(source, triangle, &p))
         return false;
-    find_range(&p.polygon, 2, source->frame->inner[2], &low, &high);
+    nook_polygon_layers(&p.polygon, 2, source->frame->inner[2], &low, &high);
     out_slabs[0] = low / NOOK_BRICK_SIDE;
     out_slabs[1] = high / NOOK_BRICK_SIDE;
     return true;
@@ -193,20 +182,19 @@ static bool is_layer_wanted(const cutter *c, int axis)
 }
 
 /*
- * Cuts along z, then y, then x; what is left is in one voxel. Layers end where those of voxels do: NOOK_LAYER_BIAS. Layers before wanted
- * ones are cut off one by one all the same: where an edge is cut twice, its point depends on the first cut.
+ * Cuts along z, then y, then x; what is left is in one voxel. Layers before wanted ones are cut off one by one all the same: where an
+ * edge is cut twice, its point depends on the first cut.
  */
 static void cut_axis(cutter *c, const nook_polygon *polygon, int axis, int32_t lowest, int32_t highest)
 {
     int32_t first, last;
-    find_range(polygon, axis, c->source->frame->inner[axis], &first, &last);
+    nook_polygon_layers(polygon, axis, c->source->frame->inner[axis], &first, &last);
     first = first > lowest ? first : lowest;
     last = last < highest ? last : highest;
     nook_polygon rest = *polygon;
     for (int32_t layer = first; layer <= last && rest.count > 0; layer++) {
-        nook_polygon here = rest, above = { .count = 0 };
-        if (layer < last)
-            nook_polygon_split(&rest, axis, (layer + 1.0) * NOOK_SUBVOXEL - NOOK_LAYER_BIAS, &here, &above);
+        nook_polygon here, above;
+        nook_polygon_take_layer(&rest, axis, layer, last, &here, &above);
         c->voxel[axis] = layer;
         if (!is_layer_wanted(c, axis))
             here.count = 0;
@@ -226,7 +214,7 @@ static void find_box(const nook_surfel_source *source, const nook_surfel_part *p
 {
     for (int axis = 0; axis < 3; axis++) {
         int32_t first, last;
-        find_range(polygon, axis, source->frame->inner[axis], &first, &last);
+        nook_polygon_layers(polygon, axis, source->frame->inner[axis], &first, &last);
         out[0][axis] = brick_of(part, first);
         out[1][axis] = brick_of(part, last);
     }
@@ -255,7 +243,7 @@ nook_result nook_surfel_cut(const nook_surfel_source *source, size_t triangle, c
         return NOOK_OK;
     if (part->highest > 0) {
         int32_t first, last;
-        find_range(&c.triangle.polygon, 2, source->frame->inner[2], &first, &last);
+        nook_polygon_layers(&c.triangle.polygon, 2, source->frame->inner[2], &first, &last);
         if (last < part->lowest || first > part->highest)
             return NOOK_OK;
     }
