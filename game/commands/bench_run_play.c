@@ -33,6 +33,8 @@ typedef struct frame_times {
     double *ms;
     size_t count, most;
     size_t sized[NOOK_PICTURE_FIT_STEPS]; /* of the count, in each size of the picture */
+    double used;                          /* sum over them: of what volumes may take, the part that held some */
+    double waiting;                       /* the same: of the bytes that were wanted, the part that was not there */
 } frame_times;
 
 static bool read_options(const nook_app *app, int argc, char **argv, play_options *out, int *out_exit_code)
@@ -81,6 +83,16 @@ static nook_result make_room(const nook_recording *replay, const play_options *o
     return out->ms ? NOOK_OK : nook_fail(NOOK_E_MEMORY, "bench play: no memory for the times of %zu frames", out->most);
 }
 
+static void count_stream(const nook_stream *stream, frame_times *times)
+{
+    nook_stream_status status;
+    nook_stream_get_status(stream, &status);
+    if (status.memory > 0)
+        times->used += (double)status.resident_bytes / (double)status.memory;
+    if (status.wanted_bytes > 0)
+        times->waiting += (double)status.waiting_bytes / (double)status.wanted_bytes;
+}
+
 static nook_result time_frames(nook_play_window *window, const play_options *options, frame_times *out)
 {
     double (*clock)(void) = options->cpu ? nook_clock_cpu_ms : nook_clock_ms;
@@ -94,6 +106,8 @@ static nook_result time_frames(nook_play_window *window, const play_options *opt
             continue;
         out->ms[out->count++] = clock() - start;
         out->sized[window->picture_fit.step]++;
+        if (window->stage.stream)
+            count_stream(window->stage.stream, out);
     }
     return result;
 }
@@ -142,7 +156,7 @@ static void print_sizes(const nook_play_window *window, const frame_times *times
     printf("; %u changes\n", fit->changes);
 }
 
-static void print_stream(const nook_stream *stream)
+static void print_stream(const nook_stream *stream, const frame_times *times)
 {
     char line[160];
     nook_stream_status status;
@@ -150,6 +164,8 @@ static void print_stream(const nook_stream *stream)
     printf("\n%s\n%" PRIu64 " came, %" PRIu64 " went, at most %.3f MiB uploaded in a frame\n",
            nook_stream_print(stream, line, sizeof line), status.loads, status.evictions,
            (double)status.largest_upload / NOOK_MIB);
+    printf("in the mean of the frames %.1f %% of the room held volumes, %.1f %% of the bytes wanted were not there\n",
+           100.0 * times->used / (double)times->count, 100.0 * times->waiting / (double)times->count);
 }
 
 static nook_result run(nook_play_window *window, const play_options *options)
@@ -174,7 +190,7 @@ static nook_result run(nook_play_window *window, const play_options *options)
     if (result == NOOK_OK && options->frame_rate > 0)
         print_sizes(window, &times);
     if (result == NOOK_OK && window->stage.stream)
-        print_stream(window->stage.stream);
+        print_stream(window->stage.stream, &times);
     free(times.ms);
     return result;
 }

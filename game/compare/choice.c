@@ -164,6 +164,8 @@ nook_result nook_compare_options_settle(nook_compare_options *options, nook_comp
     nook_result result = nook_settings_file_read(options->settings, file);
     if (result != NOOK_OK)
         return result;
+    if (file->stream.budget > 0.0f)
+        nook_log_info("%s: volumes.budget is for ./nook play; what is measured has all volumes", options->settings);
     if (options->r_max == 0.0)
         options->r_max = file->r_max;
     if (!options->falloff && *file->falloff)

@@ -68,6 +68,9 @@ void brick_pool_unplace(brick_pool *pool, uint32_t id); /**< Only what comes. */
 /** @return NOOK_E_MEMORY, NOOK_E_RANGE: what is not streamed does not fit, or the device has no room; all is as it was */
 nook_result brick_pool_set_room(brick_pool *pool, uint32_t bricks, uint32_t surfels);
 
+uint64_t brick_pool_kept_bytes(const brick_pool *pool);
+uint32_t brick_pool_list_kept(const brick_pool *pool, nook_volume_info *out, uint32_t capacity);
+
 /* ---- Between the two files ---- */
 
 void brick_pool_release_when_empty(brick_pool *pool); /**< Its memory, but for a room. */

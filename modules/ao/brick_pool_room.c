@@ -79,6 +79,31 @@ size_t brick_pool_write(brick_pool *pool, uint32_t id, nook_volume *volume, size
     return written;
 }
 
+/* ---- Volumes that stay ------------------------------------------------------------------------------------------- */
+
+uint64_t brick_pool_kept_bytes(const brick_pool *pool)
+{
+    uint64_t bytes = 0;
+    for (uint32_t i = 0; i < pool->seen.count; i++)
+        if (!pool->seen.items[i].streamed)
+            bytes += pool->seen.items[i].bricks.count * sizeof(nook_brick) +
+                     pool->seen.items[i].surfels.count * sizeof(nook_surfel);
+    return bytes;
+}
+
+uint32_t brick_pool_list_kept(const brick_pool *pool, nook_volume_info *out, uint32_t capacity)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < pool->seen.count; i++) {
+        if (pool->seen.items[i].streamed)
+            continue;
+        if (count < capacity)
+            out[count] = pool->seen.items[i].info;
+        count++;
+    }
+    return count;
+}
+
 /* ---- Another room -------------------------------------------------------------------------------------------------- */
 
 /* A place for each, those first that are not streamed. @return false: one of those has none. What is streamed and has none gets a

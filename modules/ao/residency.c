@@ -117,6 +117,17 @@ bool nook_ao_has_volume(const nook_ao *ao, nook_ao_volume volume, nook_volume_ki
     return ao_volume_info(ao, volume.id, NOOK_VOLUME_BIT(kind)) != NULL;
 }
 
+uint64_t nook_ao_kept_bytes(const nook_ao *ao, nook_volume_kind kind)
+{
+    return kind == NOOK_VOLUME_SURFEL ? brick_pool_kept_bytes(&ao->pool) : volume_atlas_kept_bytes(&ao->atlases[kind]);
+}
+
+uint32_t nook_ao_list_kept(const nook_ao *ao, nook_volume_kind kind, nook_volume_info *out, uint32_t capacity)
+{
+    return kind == NOOK_VOLUME_SURFEL ? brick_pool_list_kept(&ao->pool, out, capacity)
+                                      : volume_atlas_list_kept(&ao->atlases[kind], out, capacity);
+}
+
 static uint64_t larger(uint64_t a, uint64_t b)
 {
     return a > b ? a : b;

@@ -65,11 +65,19 @@ bool nook_ao_has_volume(const nook_ao *ao, nook_ao_volume volume, nook_volume_ki
  */
 nook_result nook_ao_keep_volume(nook_ao *ao, nook_ao_volume volume, nook_volume *contents);
 
+/** Bytes of a kind's volumes that were added whole, and stay. */
+uint64_t nook_ao_kept_bytes(const nook_ao *ao, nook_volume_kind kind);
+/**
+ * Lists them in the order in which another room would give them their places.
+ * @param out  capacity of them; sizes are those of their places @return how many there are
+ */
+uint32_t nook_ao_list_kept(const nook_ao *ao, nook_volume_kind kind, nook_volume_info *out, uint32_t capacity);
+
 /** Bytes of GPU memory that a kind's volumes have, as of the next record. */
 uint64_t nook_ao_kind_bytes(const nook_ao *ao, nook_volume_kind kind);
 /** Bytes that a kind's memory would have with these volumes, all of it, added whole one after the other. @param infos count of them */
 uint64_t nook_ao_packed_bytes(nook_volume_kind kind, const nook_volume_info *const *infos, uint32_t count);
-/** Bytes of those that find a place in a room of voxels, one after the other; the others are left out. */
+/** Bytes of those that find a place in a room of voxels, one after the other; the others are left out. Allocates. */
 uint64_t nook_ao_fitting_bytes(const uint32_t sides[3], const nook_volume_info *const *infos, uint32_t count);
 /** Bytes that one volume takes of it. */
 uint64_t nook_volume_gpu_bytes(const nook_volume_info *info);

@@ -76,6 +76,9 @@ void volume_atlas_unplace(volume_atlas *atlas, uint32_t id); /**< Only what come
 /** @return NOOK_E_MEMORY, NOOK_E_RANGE: what is not streamed does not fit, or the device has no room; all is as it was */
 nook_result volume_atlas_set_room(volume_atlas *atlas, const uint32_t sides[3]);
 
+uint64_t volume_atlas_kept_bytes(const volume_atlas *atlas);
+uint32_t volume_atlas_list_kept(const volume_atlas *atlas, nook_volume_info *out, uint32_t capacity);
+
 /* ---- Between the two files ---- */
 
 void volume_atlas_release_when_empty(volume_atlas *atlas);          /**< Its memory, but for a room. */

@@ -1,5 +1,6 @@
 /* Volumes of the atlas that come and go (residency.h), and the room that they share. */
 #include "engine/core/log.h"
+#include "modules/ao/residency.h"
 #include "modules/ao/volume_atlas_internal.h"
 #include <assert.h>
 #include <stdlib.h>
@@ -76,6 +77,43 @@ size_t volume_atlas_write(volume_atlas *atlas, uint32_t id, const uint8_t *voxel
         drop_incoming(atlas, entry);
     }
     return slices * slice;
+}
+
+/* ---- Volumes that stay ------------------------------------------------------------------------------------------- */
+
+uint64_t volume_atlas_kept_bytes(const volume_atlas *atlas)
+{
+    uint64_t bytes = 0;
+    for (uint32_t i = 0; i < atlas->seen.count; i++)
+        bytes += atlas->seen.items[i].streamed ? 0 : box_voxels(atlas->seen.items[i].box.size);
+    return bytes;
+}
+
+/* Largest first; of equal ones the first. As compare_entries has it. */
+static void put_by_size(nook_volume_info *infos, uint32_t count, const nook_volume_info *added)
+{
+    uint32_t place = count;
+    for (; place > 0 && nook_volume_gpu_bytes(&infos[place - 1]) < nook_volume_gpu_bytes(added); place--)
+        infos[place] = infos[place - 1];
+    infos[place] = *added;
+}
+
+uint32_t volume_atlas_list_kept(const volume_atlas *atlas, nook_volume_info *out, uint32_t capacity)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < atlas->seen.count; i++) {
+        const atlas_entry *entry = &atlas->seen.items[i];
+        nook_volume_info info = entry->info;
+        if (entry->streamed)
+            continue;
+        info.width = entry->box.size[0]; /* a live volume may fill less of it now */
+        info.height = entry->box.size[1];
+        info.depth = entry->box.size[2];
+        if (count < capacity)
+            put_by_size(out, count, &info);
+        count++;
+    }
+    return count;
 }
 
 /* ---- Another room -------------------------------------------------------------------------------------------------- */

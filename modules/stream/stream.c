@@ -299,7 +299,9 @@ void nook_stream_get_status(const nook_stream *stream, nook_stream_status *out_s
         status.resident_bytes += item->resident != LEVEL_NONE ? item->levels[item->resident].bytes : 0;
         status.wanted += item->target != LEVEL_NONE;
         status.wanted_bytes += item->target != LEVEL_NONE ? item->levels[item->target].bytes : 0;
-        status.waiting += item->target != LEVEL_NONE && (item->resident == LEVEL_NONE || item->resident > item->target);
+        bool waits = item->target != LEVEL_NONE && (item->resident == LEVEL_NONE || item->resident > item->target);
+        status.waiting += waits;
+        status.waiting_bytes += waits ? item->levels[item->target].bytes : 0;
         status.reading += item->job != LOADER_NONE;
         for (int level = 0; level < item->level_count; level++)
             status.refused += item->levels[level].refused;

@@ -85,6 +85,7 @@ typedef struct nook_stream_status {
     uint64_t memory;         /**< That volumes have, all kinds, those that are not streamed too. */
     uint64_t resident_bytes; /**< That whole, streamed volumes take of it. */
     uint64_t wanted_bytes;   /**< That they would take if all that is wanted were there. */
+    uint64_t waiting_bytes;  /**< Of that, what those that are waiting would take. */
     uint32_t volumes;        /**< Bodies' files, each kind counted, but not each level. */
     uint32_t resident;       /**< Of them, there in some level. */
     uint32_t wanted;         /**< Of them, wanted in some level. */

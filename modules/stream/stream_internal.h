@@ -51,9 +51,13 @@ struct nook_stream {
     bool failed;                          /**< The rooms could not be made; until something changes nothing comes. */
     uint64_t rooms[NOOK_VOLUME_KINDS];    /**< Bytes; tight. */
     uint32_t sides[NOOK_VOLUME_KINDS][3]; /**< The same, of voxels: as they were made. */
-    stream_item *of_job[LOADER_JOBS];     /**< What a job of the loader is for; NULL: nothing. */
-    int writing;                          /**< The job whose contents are written in part; LOADER_NONE: none. */
-    bool settled;                         /**< As of the last update. */
+    uint64_t kept
+        [NOOK_VOLUME_KINDS]; /**< Bytes of each room that is taken by what others have added to stay, as of the last update. */
+    uint64_t fitted;         /**< Bytes of memory after rooms were fitted. */
+    float told_budget;                /**< That was warned of as too small; 0: none. */
+    stream_item *of_job[LOADER_JOBS]; /**< What a job of the loader is for; NULL: nothing. */
+    int writing;                      /**< The job whose contents are written in part; LOADER_NONE: none. */
+    bool settled;                     /**< As of the last update. */
     uint64_t loads, evictions, frame_upload, largest_upload;
 };
 
@@ -78,7 +82,9 @@ int stream_finer(const stream_item *item, int level);
 
 /** Makes the rooms as budget and bodies ask, and says in stream->tight whether there are any. */
 nook_result stream_fit(nook_stream *stream);
-/** Whether a level is no larger than its kind's room; where everything fits, yes. */
+/** Bytes of memory that all kinds have. */
+uint64_t stream_memory(const nook_stream *stream);
+/** Whether a level is no larger than what its kind's room has for what comes and goes; where everything fits, yes. */
 bool stream_room_holds(const nook_stream *stream, const stream_item *item, int level);
 /** Gives a body that was just added its place, where everything has one. */
 void stream_settle_in(nook_stream *stream, stream_item *item);

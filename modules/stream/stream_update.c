@@ -209,6 +209,15 @@ static bool anything_comes(const nook_stream *stream)
     return false;
 }
 
+/* Others may have added what stays since the last update, and have made a room grow for it. */
+static void look_at_kept(nook_stream *stream)
+{
+    uint64_t memory = stream_memory(stream);
+    for (int kind = 0; kind < NOOK_VOLUME_KINDS; kind++)
+        stream->kept[kind] = nook_ao_kept_bytes(stream->ao, (nook_volume_kind)kind);
+    stream->stale = stream->stale || (memory > stream_budget_bytes(stream) && memory > stream->fitted);
+}
+
 nook_result nook_stream_update(nook_stream *stream, const nook_stream_view *views, uint32_t view_count,
                                const nook_ao_occluder *occluders, uint32_t occluder_count)
 {
@@ -216,6 +225,7 @@ nook_result nook_stream_update(nook_stream *stream, const nook_stream_view *view
     if (stream->failed)
         return NOOK_OK;
     stream->settled = true;
+    look_at_kept(stream);
     result = stream_loader_wake(stream->loader);
     if (result == NOOK_OK && stream->stale) {
         stream->settled = false;

@@ -153,8 +153,11 @@ static bool next_step(const nook_stream *stream, stream_item *item)
 
 static void choose_of_kind(nook_stream *stream, int kind)
 {
-    double left = (double)stream->params.fill * (double)stream->rooms[kind];
+    const uint64_t room = stream->rooms[kind], kept = stream->kept[kind];
+    const double whole = room > kept ? (double)(room - kept) : 0.0;
+    double left = (double)stream->params.fill * whole;
     uint32_t count = 0;
+    bool any = false;
     for (uint32_t i = 0; i < stream->count; i++) {
         stream_item *item = stream->volumes[i].items[kind];
         if (!item)
@@ -168,8 +171,9 @@ static void choose_of_kind(nook_stream *stream, int kind)
     while (count > 0) {
         stream_item *item = stream->heap[0];
         double bytes = (double)stream_bytes(item, item->step) - (double)stream_bytes(item, item->target);
-        bool fits = bytes <= left;
+        bool fits = bytes <= left || (!any && bytes <= whole); /* where there is no room for two, for one */
         if (fits) {
+            any = true;
             left -= bytes;
             item->target = item->step;
         }

@@ -181,15 +181,22 @@ static void test_a_model_that_is_saved_is_exchanged_while_volumes_stream(void **
 
 enum { FIELD_SIDE = 12, FIELD_SAMPLES = FIELD_SIDE * FIELD_SIDE * FIELD_SIDE };
 
+/* A field of so many samples along x, and FIELD_SIDE along the others. */
+static void write_field(fixture *self, int width)
+{
+    static char text[256 + 8 * FIELD_SAMPLES];
+    int head = snprintf(text, 256, "NRRD0004\ntype: uchar\ndimension: 3\nsizes: %d %d %d\nencoding: raw\n\n", width,
+                        FIELD_SIDE, FIELD_SIDE);
+    size_t samples = (size_t)width * FIELD_SIDE * FIELD_SIDE;
+    memset(text + head, '@', samples);
+    text[(size_t)head + samples] = '\0';
+    file_tree_write(&self->tree, "tests/game/data/field.nrrd", text);
+}
+
 /* A scalar field of 1.2 m, which the crate stands in. */
 static void add_field(fixture *self)
 {
-    static char text[256 + FIELD_SAMPLES];
-    int head = snprintf(text, 256, "NRRD0004\ntype: uchar\ndimension: 3\nsizes: %d %d %d\nencoding: raw\n\n",
-                        FIELD_SIDE, FIELD_SIDE, FIELD_SIDE);
-    memset(text + head, '@', FIELD_SAMPLES);
-    text[head + FIELD_SAMPLES] = '\0';
-    file_tree_write(&self->tree, "tests/game/data/field.nrrd", text);
+    write_field(self, FIELD_SIDE);
     file_tree_edit(&self->tree, "tests/game/data/crate.gltf", "    2\n   ]", "    2, 3\n   ]");
     file_tree_edit(&self->tree, "tests/game/data/crate.gltf", "    0.945\n   ]\n  }",
                    "    0.945\n   ]\n  },\n  { \"name\": \"field\", \"scale\": [ 0.1, 0.1, 0.1 ], \"extras\": {"
@@ -244,6 +251,89 @@ static void test_a_scalar_field_stays_whatever_the_budget_leaves_of_volumes(void
     nook_scene_reload_destroy(reload);
 }
 
+static nook_stream_status settled_with(fixture *self, double bytes)
+{
+    picture seen;
+    nook_stream_status status;
+    set_budget(self, bytes);
+    settle(self, seen);
+    nook_stream_get_status(self->stage.stream, &status);
+    return status;
+}
+
+static void test_what_a_scalar_field_takes_is_no_room_for_what_comes_and_goes(void **state)
+{
+    fixture *self = *state;
+    add_field(self);
+    write_field(self, 5 * FIELD_SIDE); /* longer than most rooms would be without it */
+    self->kind = "density";
+    open_stage(self, 64.0);
+    const uint64_t all = settled_with(self, 64.0 * 1024.0 * 1024.0).memory;
+    const double field = (double)nook_ao_kept_bytes(self->stage.ao, NOOK_VOLUME_DENSITY);
+    assert_true(field == (5 * FIELD_SIDE + 2) * (FIELD_SIDE + 2) * (FIELD_SIDE + 2));
+    for (int i = 1; i <= 40; i++) { /* of any shape: it holds the field, and no more than it may */
+        double budget = field + ((double)all - field) * i / 41.0;
+        nook_stream_status status = settled_with(self, budget);
+        assert_false(status.failed);
+        assert_true(field_is_there(self));
+        assert_true((double)status.memory <= budget + 1.0);
+        assert_true((double)status.wanted_bytes + field <= budget + 1.0);
+    }
+}
+
+static void test_a_budget_below_a_scalar_field_is_one_line_that_says_what_is_needed(void **state)
+{
+    fixture *self = *state;
+    picture seen;
+    double stays = 0.0, needed = 0.0;
+    add_field(self);
+    self->kind = "density";
+    open_stage(self, 64.0);
+    settle(self, seen);
+    int before = self->log.count;
+    nook_stream_status status = settled_with(self, 1000.0);
+    for (int frame = 0; frame < 5; frame++)
+        draw(self, seen);
+    assert_int_equal(self->log.count, before + 1);
+    assert_true(status.failed && status.resident == 0);
+    assert_true(field_is_there(self));
+    assert_true(status.memory == nook_ao_kept_bytes(self->stage.ao, NOOK_VOLUME_DENSITY)); /* and not a byte more */
+    assert_int_equal(sscanf(strstr(self->log.text, "always stay"), "always stay, %lf: nothing else comes; with %lf",
+                            &stays, &needed),
+                     2);
+    assert_true(stays > 0.002 && stays < 0.003 && needed > stays);
+    status = settled_with(self, needed * 1024.0 * 1024.0);
+    assert_int_equal(self->log.count, before + 1);
+    assert_false(status.failed);
+    assert_true(status.resident > 0);
+}
+
+static void test_a_scalar_field_that_is_saved_larger_leaves_what_comes_and_goes_less(void **state)
+{
+    fixture *self = *state;
+    picture seen;
+    nook_scene_reload *reload;
+    nook_stream_status status;
+    add_field(self);
+    self->kind = "density";
+    open_stage(self, 64.0);
+    const uint64_t all = settled_with(self, 64.0 * 1024.0 * 1024.0).memory;
+    const double budget = (double)all / 2.0;
+    assert_true(settled_with(self, budget).resident > 0);
+    assert_int_equal(nook_scene_reload_create(&self->stage, NULL, &reload), NOOK_OK);
+    for (int width = 8 * FIELD_SIDE; width >= FIELD_SIDE; width /= 2) {
+        write_field(self, width);
+        exchange(self, reload);
+        settle(self, seen);
+        nook_stream_get_status(self->stage.stream, &status);
+        assert_false(status.failed);
+        assert_true(field_is_there(self));
+        assert_true((double)status.memory <= budget + 1.0);
+        assert_true(status.resident > 0);
+    }
+    nook_scene_reload_destroy(reload);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -251,6 +341,12 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_a_scene_with_little_memory_shows_coarser_volumes, setup, teardown),
         cmocka_unit_test_setup_teardown(test_a_model_that_is_saved_is_exchanged_while_volumes_stream, setup, teardown),
         cmocka_unit_test_setup_teardown(test_a_scalar_field_stays_whatever_the_budget_leaves_of_volumes, setup,
+                                        teardown),
+        cmocka_unit_test_setup_teardown(test_what_a_scalar_field_takes_is_no_room_for_what_comes_and_goes, setup,
+                                        teardown),
+        cmocka_unit_test_setup_teardown(test_a_budget_below_a_scalar_field_is_one_line_that_says_what_is_needed, setup,
+                                        teardown),
+        cmocka_unit_test_setup_teardown(test_a_scalar_field_that_is_saved_larger_leaves_what_comes_and_goes_less, setup,
                                         teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -250,11 +250,28 @@ static void test_a_budget_that_holds_next_to_nothing_is_no_reason_to_end(void **
     fixture *self = *state;
     picture seen;
     assert_int_equal(open_game(self, "volumes.budget = 0.0001\n"), NOOK_OK);
+    int before = self->log.count;
     play_frames(self, 10, seen);
+    assert_int_equal(self->log.count, before + 1);
+    assert_non_null(strstr(self->log.text, "volumes.budget = 0.0001 MiB holds none of the 28 volumes"));
     assert_true(status_of(self).memory <= 105);
     assert_int_equal(status_of(self).resident, 0);
     for (int i = 0; i < PIXELS; i++)
         assert_true(seen[i] == 1.0f);
+    double least = 0.0, all = 0.0;
+    char lines[64];
+    assert_int_equal(sscanf(strstr(self->log.text, "needs "), "needs %lf, all at their finest %lf", &least, &all), 2);
+    assert_true(least > 0.0001 && least < 0.01 && all > 1.0 && all < 2.0);
+    nook_play_window_close(&self->window);
+    snprintf(lines, sizeof lines, "volumes.budget = %.4f\n", least); /* as little as it asks for is enough */
+    assert_int_equal(open_game(self, lines), NOOK_OK);
+    play_frames(self, 10, seen);
+    assert_int_equal(status_of(self).resident, 1);
+    nook_play_window_close(&self->window);
+    snprintf(lines, sizeof lines, "volumes.budget = %.4f\n", all);
+    assert_int_equal(open_game(self, lines), NOOK_OK);
+    play_frames(self, 10, seen);
+    assert_true(status_of(self).all_fit);
 }
 
 static void test_a_plan_streams_what_it_has_kept(void **state)

@@ -32,6 +32,13 @@ test_compare_shows_the_setting_of_the_file_beside_the_reference() {
     assert_holds "$(grep -A 3 -m 1 '"dimensions"' "$tmp/printed")" 26
 }
 
+test_compare_says_that_a_budget_is_for_play() {
+    write_setting
+    printf 'volumes.budget = 0.0001\n' >>"$tmp/setting.txt"
+    compare --settings "$tmp/setting.txt" --out "$tmp/budget" >/dev/null 2>"$tmp/said"
+    assert_holds "$(cat "$tmp/said")" 'volumes.budget is for ./nook play'
+}
+
 test_options_on_the_command_line_count_more() {
     write_setting
     compare --settings "$tmp/setting.txt" --out "$tmp/more" --json --r-max 0.5 --falloff hard --ao-scale half \
