@@ -287,7 +287,7 @@ static nook_result show_volume(nook_live *live, const nook_rectangle *part, uint
     if (!body || body->volume.id == 0)
         return NOOK_OK;
     nook_result result = nook_ao_inspect_volume(live->stage->ao, body->volume, &place);
-    if (result != NOOK_OK || place.size[0] == 0) /* a body of glass alone has no voxels */
+    if (result != NOOK_OK || place.size[0] == 0) /* it has neither voxels nor densities */
         return result;
     return mode == NOOK_LIVE_SLICES ? show_slices(live, part, &place) : show_voxels(live, part, body, &place);
 }

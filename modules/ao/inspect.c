@@ -10,6 +10,8 @@ nook_result nook_ao_inspect_volume(nook_ao *ao, nook_ao_volume volume, nook_ao_v
 {
     volume_atlas *atlas = &ao->atlases[NOOK_VOLUME_BINARY];
     nook_result result = ao_ask_for_volumes(ao, NOOK_VOLUME_BIT(NOOK_VOLUME_BINARY));
+    if (!volume_atlas_find(atlas, volume.id))
+        atlas = &ao->atlases[NOOK_VOLUME_DENSITY];
     if (result == NOOK_OK)
         result = volume_atlas_flush(atlas);
     if (result != NOOK_OK)

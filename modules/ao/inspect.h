@@ -8,11 +8,11 @@
 extern "C" {
 #endif
 
-/** A volume in the atlas. */
+/** A volume in its atlas: its binary voxels, else its densities if it has those (a scalar field: of 255 steps to its highest extinction). */
 typedef struct nook_ao_volume_place {
     nook_texture atlas; /**< R8 3D, linear filtering; 255 is full. Valid until volumes are added or removed. */
     uint32_t origin[3]; /**< Its first voxel there. */
-    uint32_t size[3];   /**< Voxels; the outermost are empty. 0: it has no binary voxels. */
+    uint32_t size[3];   /**< Voxels; the outermost are empty. 0: it has neither. */
     double voxel_size;  /**< Metres, mesh space. */
     double corner[3];   /**< Metres, mesh space: outer corner of its first voxel. */
 } nook_ao_volume_place;

@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-int live_room_open(void **state)
+int live_room_open_scene(void **state, const char *path)
 {
     live_room *room = calloc(1, sizeof *room);
     const char *root = getenv("NOOK_ROOT");
@@ -18,7 +18,7 @@ int live_room_open(void **state)
     *state = room;
     if (!room)
         return -1;
-    snprintf(scene, sizeof scene, "%s/tests/game/data/crate.gltf", root ? root : ".");
+    snprintf(scene, sizeof scene, "%s/%s", root ? root : ".", path);
     const nook_stage_desc desc = { .root = root ? root : ".",
                                    .scene_path = scene,
                                    .backend = NOOK_BACKEND_OSMESA,
@@ -29,6 +29,11 @@ int live_room_open(void **state)
            nook_ao_set_param(room->stage.ao, "ao.r_max", 0.5) != NOOK_OK ||
            nook_camera_choose(room->stage.scene, NULL, (double)LIVE_ROOM_WIDTH / LIVE_ROOM_HEIGHT, &room->camera, label,
                               sizeof label) != NOOK_OK;
+}
+
+int live_room_open(void **state)
+{
+    return live_room_open_scene(state, "tests/game/data/crate.gltf");
 }
 
 int live_room_close(void **state)

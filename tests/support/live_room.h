@@ -22,6 +22,8 @@ typedef struct live_room {
 
 /** For cmocka: around all tests of a program, and around each. */
 int live_room_open(void **state);
+/** The same with another scene. @param path  from the repository's root */
+int live_room_open_scene(void **state, const char *path);
 int live_room_close(void **state);
 int live_room_set_up(void **state);
 int live_room_tear_down(void **state);
