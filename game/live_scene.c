@@ -1,6 +1,8 @@
 #include "game/live_scene.h"
 #include "engine/core/log.h"
+#include "game/material_alpha.h"
 #include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,9 +14,7 @@ static void find_ranges(const nook_scene *scene, nook_live_scene *out)
         out->first_range[m] = count;
         for (uint32_t p = 0; p < mesh->primitive_count; p++) {
             const nook_primitive *primitive = &scene->primitives[mesh->first_primitive + p];
-            if (nook_primitive_is_opaque(scene, primitive))
-                out->ranges[count++] =
-                    (nook_ao_triangle_range){ primitive->first_index, primitive->index_count, primitive->first_vertex };
+            count += nook_primitive_live_range(scene, primitive, &out->ranges[count]);
         }
     }
     out->first_range[scene->mesh_count] = count;
@@ -45,15 +45,16 @@ static nook_result allocate(const nook_scene *scene, nook_live_scene *out)
     out->first_range = calloc(scene->mesh_count + (size_t)1, sizeof *out->first_range);
     out->parts = calloc(scene->node_count + (size_t)1, sizeof *out->parts);
     out->drawn = calloc(scene->node_count + (size_t)1, sizeof *out->drawn);
-    return out->ranges && out->first_range && out->parts && out->drawn
+    out->masks = nook_scene_live_masks(scene);
+    return out->ranges && out->first_range && out->parts && out->drawn && out->masks
                ? NOOK_OK
                : nook_fail(NOOK_E_MEMORY, "%s: no memory for its live volume", scene->path);
 }
 
 nook_result nook_live_scene_create(nook_ao *ao, const nook_scene *scene, uint32_t resolution, nook_live_scene *out)
 {
-    nook_live_scene made = { 0 };
-    *out = made;
+    nook_live_scene made = { .scene = scene };
+    *out = (nook_live_scene){ 0 };
     if (!(scene->bounds_max[0] > scene->bounds_min[0]) && !(scene->bounds_max[1] > scene->bounds_min[1]) &&
         !(scene->bounds_max[2] > scene->bounds_min[2]))
         return nook_fail(NOOK_E_FORMAT, "%s: what it draws has no size, so there is nothing to voxelise", scene->path);
@@ -77,6 +78,7 @@ void nook_live_scene_destroy(nook_ao *ao, nook_live_scene *live)
     free(live->first_range);
     free(live->parts);
     free(live->drawn);
+    free(live->masks);
     *live = (nook_live_scene){ 0 };
 }
 
@@ -123,7 +125,10 @@ nook_result nook_live_scene_voxelize(nook_live_scene *live, nook_ao *ao, const n
                                .index_buffer = nook_render_scene_indices(scene).id,
                                .parts = live->parts,
                                .part_count = place_parts(live, draws, draw_count),
+                               .masks = live->masks,
+                               .uv_offset = offsetof(nook_vertex, uv),
                                .voxel_size = live->voxel_size };
+    nook_scene_live_masks_find(live->scene, scene, live->masks);
     memcpy(mesh.box_min, live->box_min, sizeof mesh.box_min);
     memcpy(mesh.box_max, live->box_max, sizeof mesh.box_max);
     nook_result result = nook_ao_voxelize(ao, live->volume, &mesh);

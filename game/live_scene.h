@@ -3,7 +3,7 @@
  * (Papaioannou et al. 2010, section 4.2): nothing is baked, and every body may move.
  *
  * Box        the scene's bounds as it was loaded; what leaves it darkens nothing.
- * Left out   blended materials, as from binary volumes; what skins and morph targets bend, which has live volumes of its own.
+ * Left out   blended materials and the holes of masked ones, as from binary volumes; what skins and morph targets bend, which has live volumes of its own.
  */
 #pragma once
 #include "engine/render/renderer.h"
@@ -17,9 +17,11 @@ typedef struct nook_live_scene {
     uint32_t size[3];              /**< Voxels. */
     float box_min[3], box_max[3];  /**< Its space. */
     nook_ao_triangle_range *ranges;
-    uint32_t *first_range; /**< Of each mesh, and one more. */
+    const nook_scene *scene; /**< Borrowed. */
+    uint32_t *first_range;   /**< Of each mesh, and one more. */
     nook_ao_live_part *parts;
-    nook_draw *drawn; /**< What it was voxelised of. */
+    nook_ao_live_mask *masks; /**< Of each material. */
+    nook_draw *drawn;         /**< What it was voxelised of. */
     uint32_t drawn_count;
     bool voxelized; /**< In the last call. */
 } nook_live_scene;

@@ -2,8 +2,10 @@
 #include "engine/animation/deform.h"
 #include "engine/core/log.h"
 #include "engine/core/vector.h"
+#include "game/material_alpha.h"
 #include "game/volumes.h"
 #include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -79,10 +81,15 @@ static void add_triangles(const nook_scene *scene, nook_live_volumes *volumes, n
     const nook_mesh *mesh = &scene->meshes[d->mesh];
     for (uint32_t p = 0; p < mesh->primitive_count; p++) {
         const nook_primitive *primitive = &scene->primitives[mesh->first_primitive + p];
-        if (!nook_primitive_is_opaque(scene, primitive))
+        nook_alpha_part *part = &volumes->parts[volume->first_part + volume->part_count];
+        if (!nook_primitive_live_range(scene, primitive, &volumes->ranges[volume->first_range + volume->range_count]))
             continue;
-        volumes->ranges[volume->first_range + volume->range_count++] =
-            (nook_ao_triangle_range){ primitive->first_index, primitive->index_count, primitive->first_vertex };
+        volume->range_count++;
+        if (nook_material_alpha(scene, &scene->materials[primitive->material], part)) {
+            part->first_index = volume->index_count;
+            part->index_count = primitive->index_count;
+            volume->part_count++;
+        }
         uint32_t by = primitive->first_vertex - d->first_vertex;
         for (uint32_t i = 0; i < primitive->index_count; i++)
             volumes->indices[volume->first_index + volume->index_count++] =
@@ -104,22 +111,27 @@ static nook_result allocate(const nook_scene *scene, nook_live_volumes *out)
     out->items = calloc(scene->deformable_count + 1u, sizeof *out->items);
     out->ranges = calloc(primitives + 1, sizeof *out->ranges);
     out->indices = calloc(indices + 1, sizeof *out->indices);
+    out->parts = calloc(primitives + 1, sizeof *out->parts);
+    out->masks = nook_scene_live_masks(scene);
+    out->uvs = calloc(vertices + 1, 2 * sizeof *out->uvs);
     out->vertices = calloc(vertices + 1, sizeof *out->vertices);
     out->positions = calloc(vertices + 1, 3 * sizeof *out->positions);
-    return out->items && out->ranges && out->indices && out->vertices && out->positions
+    bool made = out->items && out->ranges && out->indices && out->vertices && out->positions;
+    return made && out->parts && out->masks && out->uvs
                ? NOOK_OK
                : nook_fail(NOOK_E_MEMORY, "%s: no memory for its live volumes", scene->path);
 }
 
 static void find_volumes(const nook_scene *scene, nook_live_volumes *out)
 {
-    uint32_t range = 0, index = 0;
+    uint32_t range = 0, index = 0, part = 0;
     for (uint32_t i = 0; i < scene->deformable_count; i++) {
         nook_live_volume *volume = &out->items[out->count];
-        *volume = (nook_live_volume){ .deformable = i, .first_range = range, .first_index = index };
+        *volume = (nook_live_volume){ .deformable = i, .first_range = range, .first_index = index, .first_part = part };
         add_triangles(scene, out, volume);
         range += volume->range_count;
         index += volume->index_count;
+        part += volume->part_count;
         out->count += volume->index_count > 0;
     }
 }
@@ -156,6 +168,9 @@ void nook_live_volumes_destroy(nook_ao *ao, nook_live_volumes *volumes)
     free(volumes->indices);
     free(volumes->vertices);
     free(volumes->positions);
+    free(volumes->masks);
+    free(volumes->parts);
+    free(volumes->uvs);
     *volumes = (nook_live_volumes){ 0 };
 }
 
@@ -168,12 +183,15 @@ static nook_result trace(nook_live_volumes *volumes, nook_live_volume *volume, n
     const nook_vertex *rest =
         scene->rest_vertices ? scene->rest_vertices + d->first_rest : scene->vertices + d->first_vertex;
     nook_deform(pose, volume->deformable, rest, volumes->vertices);
-    for (uint32_t v = 0; v < d->vertex_count; v++)
+    for (uint32_t v = 0; v < d->vertex_count; v++) {
         memcpy(volumes->positions + (size_t)v * 3, volumes->vertices[v].position, 3 * sizeof(float));
+        memcpy(volumes->uvs + (size_t)v * 2, volumes->vertices[v].uv, 2 * sizeof(float));
+    }
     nook_ao_remove_mesh(ao, volume->occluder.mesh);
     volume->occluder.mesh = (nook_ao_mesh){ 0 };
-    return nook_ao_add_mesh(ao, volumes->positions, d->vertex_count, volumes->indices + volume->first_index,
-                            volume->index_count, &volume->occluder.mesh);
+    const nook_alphas alphas = { volumes->parts + volume->first_part, volume->part_count, volumes->uvs };
+    return nook_ao_add_mesh_with_alphas(ao, volumes->positions, d->vertex_count, volumes->indices + volume->first_index,
+                                        volume->index_count, &alphas, &volume->occluder.mesh);
 }
 
 nook_result nook_live_volumes_trace(nook_live_volumes *volumes, nook_ao *ao, const nook_scene_pose *pose,
@@ -226,6 +244,7 @@ nook_result nook_live_volumes_voxelize(nook_live_volumes *volumes, nook_ao *ao, 
     double r_max = 0.0;
     nook_result result = volumes->count > 0 ? nook_ao_get_param(ao, "ao.r_max", &r_max) : NOOK_OK;
     volumes->voxelized = 0;
+    nook_scene_live_masks_find(pose->scene, scene, volumes->masks);
     for (uint32_t i = 0; i < volumes->count && result == NOOK_OK; i++) {
         nook_live_volume *volume = &volumes->items[i];
         if (volume->voxel_version == version || !matters(volume, pose, camera, aspect, r_max))
@@ -237,6 +256,8 @@ nook_result nook_live_volumes_voxelize(nook_live_volumes *volumes, nook_ao *ao, 
                                    .index_buffer = nook_render_scene_indices(scene).id,
                                    .parts = &part,
                                    .part_count = 1,
+                                   .masks = volumes->masks,
+                                   .uv_offset = offsetof(nook_vertex, uv),
                                    .voxel_size = volume->voxel_size };
         memcpy(part.volume_from_part, nook_matrix_identity().m, sizeof part.volume_from_part);
         memcpy(mesh.box_min, pose->meshes[volume->deformable].box.min, sizeof mesh.box_min);

@@ -20,13 +20,17 @@ typedef struct nook_live_volume {
     uint32_t size[3];              /**< Voxels that it has room for. */
     uint32_t first_range, range_count;
     uint32_t first_index, index_count;    /**< Of its triangles for the reference. */
+    uint32_t first_part, part_count;      /**< Of those the masked ones. */
     uint32_t voxel_version, mesh_version; /**< Of the poses that they were made of; 0: none yet. */
 } nook_live_volume;
 
 typedef struct nook_live_volumes {
     nook_live_volume *items;
     uint32_t count;
-    nook_ao_triangle_range *ranges; /**< Of everything opaque. */
+    nook_ao_triangle_range *ranges; /**< Of everything that is not blended. */
+    nook_ao_live_mask *masks;       /**< Of each material. */
+    nook_alpha_part *parts;         /**< Their triangles are counted from the volume's first index. */
+    float *uvs;                     /**< Room for the largest, as vertices and positions. */
     uint32_t *indices;              /**< Relative to the deformable's first vertex. */
     nook_vertex *vertices;          /**< Room for the largest of them. */
     float *positions;

@@ -2,6 +2,7 @@
 #include "game/volumes.h"
 #include "engine/core/log.h"
 #include "engine/core/vector.h"
+#include "game/material_alpha.h"
 #include <cglm/cglm.h>
 #include <math.h>
 #include <stdio.h>
@@ -57,19 +58,11 @@ static bool finite3(const float p[3])
 /* What is not opaque of the last `count` indices. */
 static void append_part(const nook_scene *scene, const nook_material *material, size_t count, nook_scene_volume *volume)
 {
-    uint32_t image = material->base_colour_image;
-    if (count == 0 || material->alpha_mode == NOOK_ALPHA_OPAQUE)
+    nook_alpha_part part;
+    if (count == 0 || !nook_material_alpha(scene, material, &part))
         return;
-    nook_alpha_part part = { .first_index = volume->index_count + volume->blended_index_count - count,
-                             .index_count = count,
-                             .alpha = material->base_colour[3],
-                             .masked = material->alpha_mode == NOOK_ALPHA_MASK,
-                             .cutoff = material->alpha_cutoff };
-    if (image != NOOK_NONE && scene->images[image].pixels) {
-        part.texels = scene->images[image].pixels;
-        part.width = scene->images[image].width;
-        part.height = scene->images[image].height;
-    }
+    part.first_index = volume->index_count + volume->blended_index_count - count;
+    part.index_count = count;
     volume->parts[volume->part_count++] = part;
 }
 

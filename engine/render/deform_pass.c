@@ -259,3 +259,8 @@ nook_buffer nook_render_scene_indices(const nook_render_scene *scene)
 {
     return scene->indices;
 }
+
+nook_texture nook_render_scene_base_colour(const nook_render_scene *scene, uint32_t material)
+{
+    return scene->material_images[material].images[UNIT_BASE_COLOUR_IMAGE];
+}

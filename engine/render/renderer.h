@@ -133,6 +133,8 @@ void nook_render_scene_pose(nook_render_scene *scene, const nook_mesh_pose *pose
 /** nook_vertex of the whole scene, those of deformables in their last pose; and its indices, as scene->primitives have them. */
 nook_buffer nook_render_scene_vertices(const nook_render_scene *scene);
 nook_buffer nook_render_scene_indices(const nook_render_scene *scene);
+/** The image of a material's base colour. @return id 0: it has none */
+nook_texture nook_render_scene_base_colour(const nook_render_scene *scene, uint32_t material);
 
 /** The draws of a scene as it stands in its file: one for each node that has a mesh. @param out NULL only counts */
 size_t nook_scene_draws(const nook_scene *scene, nook_draw *out);

@@ -92,11 +92,24 @@ static void place_part(const nook_volume_info *info, const nook_ao_live_part *pa
     }
 }
 
+static void draw_range(nook_slicing *slicing, const nook_ao_live_mesh *mesh, const nook_ao_triangle_range *triangles)
+{
+    const nook_ao_live_mask *mask = triangles->mask && mesh->masks ? &mesh->masks[triangles->mask - 1] : NULL;
+    if (mask && mask->texture)
+        nook_slicing_mask(slicing, &(nook_slice_mask){ mask->texture, mask->factor, mask->cutoff });
+    else
+        nook_slicing_mask(slicing, NULL);
+    nook_slicing_draw(slicing, triangles->first_index, triangles->index_count, triangles->first_vertex);
+}
+
 static nook_result draw_slices(nook_ao *ao, const nook_volume_info *info, const nook_ao_live_mesh *mesh)
 {
     nook_slice_mesh triangles = { .vertex_buffer = mesh->vertex_buffer,
                                   .vertex_stride = mesh->vertex_stride,
-                                  .index_buffer = mesh->index_buffer };
+                                  .index_buffer = mesh->index_buffer,
+                                  .uv_buffer = mesh->masks ? mesh->vertex_buffer : 0,
+                                  .uv_offset = mesh->uv_offset,
+                                  .uv_stride = mesh->vertex_stride };
     nook_slicing slicing;
     nook_result result = NOOK_OK;
     nook_slicing_begin(ao->gpu, ao->voxelizer.vertex_array, &slicing);
@@ -107,8 +120,7 @@ static nook_result draw_slices(nook_ao *ao, const nook_volume_info *info, const 
             place_part(info, part, &triangles);
             nook_slicing_mesh(&slicing, &triangles);
             for (uint32_t r = 0; r < part->range_count; r++)
-                nook_slicing_draw(&slicing, part->ranges[r].first_index, part->ranges[r].index_count,
-                                  part->ranges[r].first_vertex);
+                draw_range(&slicing, mesh, &part->ranges[r]);
         }
     }
     nook_slicing_end(&slicing);

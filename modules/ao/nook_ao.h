@@ -143,7 +143,15 @@ enum { NOOK_AO_LIVE_SIDE_MAX = 512 /**< Voxels along a side of a live volume, th
 typedef struct nook_ao_triangle_range {
     uint32_t first_index, index_count; /**< Into the index buffer; a multiple of 3. */
     uint32_t first_vertex;             /**< Added to each index. */
+    uint32_t mask;                     /**< 1 + an index of the mesh's masks; 0: all of it is there. */
 } nook_ao_triangle_range;
+
+/** A texture with holes: a point is there where the factor times the alpha of the nearest texel, repeated, is at least the cutoff. */
+typedef struct nook_ao_live_mask {
+    uint32_t
+        texture; /**< GL name, 2D, of which level 0 is looked at, its first row at v = 0; 0: it has none, and all is there. */
+    float factor, cutoff;
+} nook_ao_live_mask;
 
 /** Triangles that stand together. */
 typedef struct nook_ao_live_part {
@@ -159,6 +167,8 @@ typedef struct nook_ao_live_mesh {
     uint32_t index_buffer;  /**< GL name; 32-bit. */
     const nook_ao_live_part *parts;
     uint32_t part_count;
+    const nook_ao_live_mask *masks; /**< Of the ranges; NULL: none has one. */
+    uint32_t uv_offset; /**< Of ranges with a mask: bytes from a vertex to its place on the texture, two floats. */
     float box_min[3],
         box_max[3];    /**< Of all of them, the volume's space. What leaves the volume's room darkens nothing. */
     double voxel_size; /**< Metres, > 0. */
@@ -186,7 +196,7 @@ nook_result nook_ao_add_mesh(nook_ao *ao, const float *positions, uint32_t verte
                              uint32_t index_count, nook_ao_mesh *out_mesh);
 /**
  * The same, and what of it is not opaque: the reference's rays pass through the holes of masked parts, and through blended ones by their
- * alpha. hao's voxels hold masked parts whole, and no blended ones.
+ * alpha. hao's voxels hold masked parts with their holes, and no blended ones.
  * @param alphas  blended parts stand behind all other triangles; NULL: all is opaque
  * @return NOOK_E_ARG also for parts that are not some of the triangles in order and apart
  */

@@ -2,7 +2,8 @@
 #include <assert.h>
 #include <stdio.h>
 
-enum { LOCATION_ROWS = 0 /* to 2 */, LOCATION_AXIS = 3, LOCATION_SIDE = 4 };
+enum { LOCATION_ROWS = 0 /* to 2 */, LOCATION_AXIS = 3, LOCATION_SIDE = 4, LOCATION_ALPHA = 5, UNIT_MASK = 5 };
+enum { OPAQUE, MASKED, NEITHER };
 
 nook_result nook_slicemap_fit(nook_slicemap *map, nook_gpu *gpu, uint32_t side)
 {
@@ -25,20 +26,22 @@ void nook_slicemap_release(nook_slicemap *map, nook_gpu *gpu)
     nook_texture_destroy(gpu, &map->bits);
 }
 
-static nook_result slice_program(const nook_slicemap *map, nook_gpu *gpu, nook_program *out_program)
+static nook_result slice_program(const nook_slicemap *map, nook_gpu *gpu, int masked, nook_program *out_program)
 {
-    char defines[32];
-    snprintf(defines, sizeof defines, "#define TEXELS %u\n", map->bits.depth);
+    char defines[64];
+    snprintf(defines, sizeof defines, "#define TEXELS %u\n%s", map->bits.depth, masked ? "#define MASKED\n" : "");
     return nook_program_raster(gpu, "shaders/ao/voxel_slice.vert.glsl", "shaders/ao/voxel_slice.frag.glsl", defines,
                                out_program);
 }
 
 nook_result nook_slicemap_shader_version(const nook_slicemap *map, nook_gpu *gpu, uint32_t *out_version)
 {
-    nook_program program;
-    nook_result result = slice_program(map, gpu, &program);
+    nook_program programs[2];
+    nook_result result = slice_program(map, gpu, OPAQUE, &programs[OPAQUE]);
     if (result == NOOK_OK)
-        *out_version = nook_program_version(gpu, program);
+        result = slice_program(map, gpu, MASKED, &programs[MASKED]);
+    if (result == NOOK_OK)
+        *out_version = nook_program_version(gpu, programs[OPAQUE]) + nook_program_version(gpu, programs[MASKED]);
     return result;
 }
 
@@ -50,6 +53,8 @@ uint32_t nook_slicing_vertex_array(nook_gpu *gpu)
     gl->EnableVertexArrayAttrib(name, 0);
     gl->VertexArrayAttribFormat(name, 0, 3, GL_FLOAT, GL_FALSE, 0);
     gl->VertexArrayAttribBinding(name, 0, 0);
+    gl->VertexArrayAttribFormat(name, 1, 2, GL_FLOAT, GL_FALSE, 0);
+    gl->VertexArrayAttribBinding(name, 1, 1);
     return name;
 }
 
@@ -64,31 +69,56 @@ void nook_slicing_begin(nook_gpu *gpu, uint32_t vertex_array, nook_slicing *out_
     *out_slicing = slicing;
 }
 
-nook_result nook_slicing_map(const nook_slicing *slicing, const nook_slicemap *map, int32_t axis)
+nook_result nook_slicing_map(nook_slicing *slicing, const nook_slicemap *map, int32_t axis)
 {
     nook_gpu *gpu = slicing->gpu;
-    nook_program program;
-    nook_result result = slice_program(map, gpu, &program);
+    const GLuint zero[4] = { 0 };
+    nook_result result = slice_program(map, gpu, OPAQUE, &slicing->programs[OPAQUE]);
+    if (result == NOOK_OK)
+        result = slice_program(map, gpu, MASKED, &slicing->programs[MASKED]);
     if (result != NOOK_OK)
         return result;
-    const GLuint zero[4] = { 0 };
-    const float side = (float)map->bits.width;
+    slicing->axis = axis;
+    slicing->side = (float)map->bits.width;
     for (GLint i = 0; i < (GLint)map->bits.depth; i++)
         gpu->gl->ClearNamedFramebufferuiv(map->target.id, GL_COLOR, i, zero);
     nook_framebuffer_bind(gpu, map->target);
-    nook_program_use(gpu, program);
-    nook_uniform_int(gpu, LOCATION_AXIS, &axis, 1);
-    nook_uniform_float(gpu, LOCATION_SIDE, &side, 1);
     return NOOK_OK;
 }
 
-void nook_slicing_mesh(const nook_slicing *slicing, const nook_slice_mesh *mesh)
+void nook_slicing_mesh(nook_slicing *slicing, const nook_slice_mesh *mesh)
 {
     const nook_gl *gl = slicing->gpu->gl;
     gl->VertexArrayVertexBuffer(slicing->vertex_array, 0, mesh->vertex_buffer, 0, (GLsizei)mesh->vertex_stride);
     gl->VertexArrayElementBuffer(slicing->vertex_array, mesh->index_buffer);
+    if (mesh->uv_buffer)
+        gl->VertexArrayVertexBuffer(slicing->vertex_array, 1, mesh->uv_buffer, (GLintptr)mesh->uv_offset,
+                                    (GLsizei)mesh->uv_stride);
+    slicing->mesh = *mesh;
+    slicing->used = NEITHER;
+    nook_slicing_mask(slicing, NULL);
+}
+
+/* Uniforms are a program's own, and programs may be shared: all are set. */
+void nook_slicing_mask(nook_slicing *slicing, const nook_slice_mask *mask)
+{
+    nook_gpu *gpu = slicing->gpu;
+    assert(!mask || slicing->mesh.uv_buffer);
+    if (!mask && slicing->used == OPAQUE)
+        return;
+    slicing->used = mask ? MASKED : OPAQUE;
+    nook_program_use(gpu, slicing->programs[mask ? MASKED : OPAQUE]);
+    nook_uniform_int(gpu, LOCATION_AXIS, &slicing->axis, 1);
+    nook_uniform_float(gpu, LOCATION_SIDE, &slicing->side, 1);
     for (uint32_t row = 0; row < 3; row++)
-        nook_uniform_float(slicing->gpu, LOCATION_ROWS + row, mesh->voxel_from_mesh[row], 4);
+        nook_uniform_float(gpu, LOCATION_ROWS + row, slicing->mesh.voxel_from_mesh[row], 4);
+    if (mask) {
+        gpu->gl->EnableVertexArrayAttrib(slicing->vertex_array, 1);
+        nook_uniform_float(gpu, LOCATION_ALPHA, (const float[]){ mask->factor, mask->cutoff }, 2);
+        nook_bind_texture(gpu, UNIT_MASK, (nook_texture){ .id = mask->texture });
+    } else {
+        gpu->gl->DisableVertexArrayAttrib(slicing->vertex_array, 1);
+    }
 }
 
 void nook_slicing_draw(const nook_slicing *slicing, uint32_t first_index, uint32_t index_count, uint32_t first_vertex)

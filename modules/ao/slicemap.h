@@ -41,21 +41,37 @@ void nook_slicemap_release(nook_slicemap *map, nook_gpu *gpu);
  */
 nook_result nook_slicemap_shader_version(const nook_slicemap *map, nook_gpu *gpu, uint32_t *out_version);
 
+/** Indexed triangles on the GPU. */
+typedef struct nook_slice_mesh {
+    uint32_t vertex_buffer; /**< GL name; a vertex begins with its position, three floats. */
+    uint32_t vertex_stride; /**< Bytes. */
+    /** Of what is masked: where on its texture each vertex lies, two floats. GL name; 0: nothing is. Bytes to the first one, and from each to the next. */
+    uint32_t uv_buffer, uv_offset, uv_stride;
+    uint32_t index_buffer; /**< GL name; 32-bit. */
+    /** Rows: voxels of the grid, whose first one is (0, 0, 0) to (1, 1, 1). What leaves the map marks nothing. */
+    float voxel_from_mesh[3][4];
+} nook_slice_mesh;
+
+/**
+ * Triangles with holes: a point is there where the factor times the texture's alpha is at least the cutoff. Of the texture the texel at that
+ * point is looked at, repeated, as engine/core/alpha.h says; so a column has what its middle has, as in modules/bake/voxelize.h.
+ */
+typedef struct nook_slice_mask {
+    uint32_t texture; /**< GL name, 2D, level 0; first row at v = 0. */
+    float factor, cutoff;
+} nook_slice_mask;
+
 /** GL's state while triangles are sliced; what a host had is put back at the end. */
 typedef struct nook_slicing {
     nook_gpu *gpu;
     uint32_t vertex_array;
     nook_draw_state host;
+    nook_program programs[2]; /**< Of what is opaque, of what is masked. */
+    int32_t used;             /**< Which of them has all that mesh and map say. */
+    int32_t axis;
+    float side;
+    nook_slice_mesh mesh;
 } nook_slicing;
-
-/** Indexed triangles on the GPU. */
-typedef struct nook_slice_mesh {
-    uint32_t vertex_buffer; /**< GL name; a vertex begins with its position, three floats. */
-    uint32_t vertex_stride; /**< Bytes. */
-    uint32_t index_buffer;  /**< GL name; 32-bit. */
-    /** Rows: voxels of the grid, whose first one is (0, 0, 0) to (1, 1, 1). What leaves the map marks nothing. */
-    float voxel_from_mesh[3][4];
-} nook_slice_mesh;
 
 /** A vertex array for nook_slicing_begin; the caller deletes it: DeleteVertexArrays. */
 uint32_t nook_slicing_vertex_array(nook_gpu *gpu);
@@ -66,9 +82,11 @@ void nook_slicing_begin(nook_gpu *gpu, uint32_t vertex_array, nook_slicing *out_
  * @param axis  0, 1, 2: what it looks along. Its columns are (y, z), (x, z), (x, y) of the grid
  * @return NOOK_E_NOT_FOUND, NOOK_E_DEVICE: the shaders
  */
-nook_result nook_slicing_map(const nook_slicing *slicing, const nook_slicemap *map, int32_t axis);
+nook_result nook_slicing_map(nook_slicing *slicing, const nook_slicemap *map, int32_t axis);
 /** What is drawn from now on. */
-void nook_slicing_mesh(const nook_slicing *slicing, const nook_slice_mesh *mesh);
+void nook_slicing_mesh(nook_slicing *slicing, const nook_slice_mesh *mesh);
+/** What of the mesh is drawn from now on has holes. @param mask  NULL: none, as after nook_slicing_mesh */
+void nook_slicing_mask(nook_slicing *slicing, const nook_slice_mask *mask);
 /** @param first_index, index_count  a multiple of 3 @param first_vertex  added to each index */
 void nook_slicing_draw(const nook_slicing *slicing, uint32_t first_index, uint32_t index_count, uint32_t first_vertex);
 void nook_slicing_end(const nook_slicing *slicing);

@@ -101,21 +101,28 @@ static hao_box box_of_scene(const hao_view *view, const hao_meshes *meshes, cons
     return scene;
 }
 
-static void draw_instance(const nook_slicing *slicing, const hao_grid *grid, const hao_mesh *mesh,
+static void draw_instance(nook_slicing *slicing, const hao_grid *grid, const hao_mesh *mesh,
                           const nook_matrix *view_from_mesh)
 {
     nook_slice_mesh triangles = { .vertex_buffer = mesh->vertices.id,
                                   .vertex_stride = 3 * sizeof(float),
-                                  .index_buffer = mesh->indices.id };
+                                  .index_buffer = mesh->indices.id,
+                                  .uv_buffer = mesh->uvs.id,
+                                  .uv_stride = 2 * sizeof(float) };
     nook_matrix voxel_from_mesh = nook_matrix_multiply(&grid->voxel_from_view, view_from_mesh);
     for (int row = 0; row < 3; row++)
         for (int column = 0; column < 4; column++)
             triangles.voxel_from_mesh[row][column] = (float)voxel_from_mesh.m[column * 4 + row];
     nook_slicing_mesh(slicing, &triangles);
-    nook_slicing_draw(slicing, 0, mesh->index_count, 0);
+    for (uint32_t i = 0; i < mesh->range_count; i++) {
+        const hao_range *range = &mesh->ranges[i];
+        const nook_slice_mask mask = { range->texture ? range->texture->id : 0, range->factor, range->cutoff };
+        nook_slicing_mask(slicing, range->texture ? &mask : NULL);
+        nook_slicing_draw(slicing, range->first_index, range->index_count, 0);
+    }
 }
 
-static nook_result draw_map(const hao_voxels *voxels, const nook_slicing *slicing, int axis, const nook_ao_pass *pass,
+static nook_result draw_map(const hao_voxels *voxels, nook_slicing *slicing, int axis, const nook_ao_pass *pass,
                             const hao_meshes *meshes)
 {
     nook_result result = nook_slicing_map(slicing, &voxels->maps[axis], axis);

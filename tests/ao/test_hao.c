@@ -1,6 +1,7 @@
 /* hao on closed forms: it must not see its own surface, must see what the camera does not, and miss what lies between its tests. */
 #include "modules/fixture/closed_form.h"
 #include "tests/support/ao_fixture.h"
+#include "tests/support/test_mask.h"
 #include <math.h>
 #include <stdio.h>
 
@@ -97,6 +98,63 @@ static void test_without_a_guard_a_floor_darkens_itself(void **state)
     ao_fixture_param(fixture, "hao.guard", "none");
     add_floor(fixture, origin, up);
     assert_true(ao_fixture_measure(fixture, "hao", origin, up, 0.5).mean > 0.05);
+}
+
+/* ---- masks ---- */
+
+/* A ceiling at 0.4 r_max, and what of it is not opaque. */
+static void add_ceiling(ao_fixture *fixture, const nook_alphas *alphas)
+{
+    nook_fixture_mesh mesh = { .alphas = alphas };
+    nook_fixture_add_quad(&mesh, (double[]){ -2, -2, 0.4 }, (double[]){ 4, 0, 0 }, (double[]){ 0, 4, 0 });
+    add(fixture, &mesh);
+}
+
+/* A checker of fields of half a metre: as much of what a wall takes, whatever hao finds of that, as of 1 - 0.4^2 the reference's rays find. */
+static void test_a_checker_takes_half_of_what_a_wall_takes(void **state)
+{
+    const uint8_t texels[] = { 0, 255, 255, 0 };
+    const float uvs[6][2] = { { 0, 0 }, { 4, 0 }, { 4, 4 }, { 0, 0 }, { 4, 4 }, { 0, 4 } };
+    const nook_alpha_part mask = test_mask(0, 6, texels, 2);
+    const nook_alphas alphas = { &mask, 1, uvs[0] };
+    for (size_t maps = 0; maps < 2; maps++) {
+        ao_fixture *fixture = prepare(state, slicemaps[maps], "1");
+        ao_fixture_param(fixture, "reference.rays", "1024");
+        add_ceiling(fixture, NULL);
+        double whole = measure(fixture);
+        ao_fixture_clear(fixture);
+        add_ceiling(fixture, &alphas);
+        double truth = ao_fixture_measure(fixture, "reference", origin, up, 0.3).mean, masked = measure(fixture);
+        print_message("%s: %.4f of %.4f, truth %.4f\n", slicemaps[maps], masked, whole, truth);
+        assert_true(fabs(masked / whole - truth / 0.84) < 0.04);
+        assert_true(whole > 0.65 && fabs(truth - 0.42) < 0.02);
+    }
+}
+
+/* Parts by themselves: what a factor or a texture takes away, and what is there, also where it shares a texture and stands behind others. */
+static void test_each_part_of_a_mesh_has_its_own_mask(void **state)
+{
+    const uint8_t texels[] = { 0, 0, 0, 0 };
+    const float uvs[24][2] = { { 0 } };
+    nook_alpha_part gone = test_mask(0, 6, texels, 2), also_gone = test_mask(6, 6, texels, 2),
+                    there = test_mask(12, 6, texels, 2);
+    there.cutoff = 0.0f; /* all is at least that */
+    const nook_alpha_part parts[] = { gone, also_gone, there };
+    const nook_alphas alphas = { parts, 3, uvs[0] };
+    static const double corner[4][3] = { { -2, -2, 0.2 }, { -2, -2, 0.3 }, { -2, -2, 0.4 }, { 1.9, 1.9, 0 } };
+    double got[2];
+    for (int masked = 0; masked < 2; masked++) {
+        ao_fixture *fixture = prepare(state, "three", "1");
+        nook_fixture_mesh mesh = { .alphas = masked ? &alphas : NULL };
+        for (int quad = masked ? 0 : 2; quad < 4; quad++) {
+            const double side = quad < 3 ? 4.0 : 0.1;
+            nook_fixture_add_quad(&mesh, corner[quad], (double[]){ side, 0, 0 }, (double[]){ 0, side, 0 });
+        }
+        add(fixture, &mesh);
+        got[masked] = measure(fixture);
+    }
+    assert_true(got[0] > 0.75);
+    assert_true(fabs(got[1] - got[0]) < 1e-6);
 }
 
 /* ---- closed forms ---- */
@@ -210,6 +268,8 @@ static void test_a_finer_grid_brings_a_thin_contact_nearer_to_the_truth(void **s
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_a_checker_takes_half_of_what_a_wall_takes),
+        cmocka_unit_test(test_each_part_of_a_mesh_has_its_own_mask),
         cmocka_unit_test(test_an_open_floor_reads_nothing_at_any_tilt_and_place_in_the_voxels),
         cmocka_unit_test(test_without_a_guard_a_floor_darkens_itself),
         cmocka_unit_test(test_a_closed_box_is_closed_at_any_spread),

@@ -4,6 +4,7 @@
 #include "modules/bake/voxelize.h"
 #include "tests/support/log_capture.h"
 #include "tests/support/test_gpu.h"
+#include "tests/support/test_mask.h"
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -75,7 +76,7 @@ static fixture open_fixture(nook_gpu *gpu, const soup *s)
     assert_int_equal(nook_ao_add_live_volume(f.ao, "soup", size, &f.volume), NOOK_OK);
     assert_int_equal(nook_buffer_create(gpu, s->positions, sizeof s->positions, &f.vertices), NOOK_OK);
     assert_int_equal(nook_buffer_create(gpu, s->indices, sizeof s->indices, &f.indices), NOOK_OK);
-    f.range = (nook_ao_triangle_range){ 0, TRIANGLES * 3 + 6, 0 };
+    f.range = (nook_ao_triangle_range){ .index_count = TRIANGLES * 3 + 6 };
     f.part = (nook_ao_live_part){ .range_count = 1 };
     memcpy(f.part.volume_from_part, nook_matrix_identity().m, sizeof f.part.volume_from_part);
     f.mesh = (nook_ao_live_mesh){ .vertex_buffer = f.vertices.id,
@@ -180,6 +181,96 @@ static void test_slicemaps_mark_what_the_bake_marks(void **state)
     }
 }
 
+/* A sheet across z in a cube of 2 m with a checker of 8 x 8 fields, 6 voxels each, and a speck in either corner. */
+typedef struct checked_sheet {
+    struct {
+        float position[3], uv[2];
+    } vertices[10];
+    uint32_t indices[12];
+    uint8_t texels[16];
+} checked_sheet;
+
+static void make_checked_sheet(checked_sheet *s)
+{
+    static const uint32_t indices[12] = { 0, 1, 2, 2, 1, 3, 4, 5, 6, 7, 8, 9 };
+    static const float specks[6][3] = { { -1, -1, -1 }, { -0.99f, -1, -1 }, { -1, -0.99f, -1 },
+                                        { 1, 1, 1 },    { 0.99f, 1, 1 },    { 1, 0.99f, 1 } };
+    memset(s, 0, sizeof *s);
+    for (int i = 0; i < 4; i++) {
+        const float right = (float)(i & 1), high = (float)(i >> 1);
+        s->vertices[i].position[0] = 2.0f * right - 1.0f;
+        s->vertices[i].position[1] = 2.0f * high - 1.0f;
+        s->vertices[i].position[2] = 0.02f + 0.001f * right;
+        s->vertices[i].uv[0] = 2.0f + 4.0f * right, s->vertices[i].uv[1] = 4.0f * high - 3.0f;
+    }
+    for (int i = 0; i < 6; i++)
+        memcpy(s->vertices[4 + i].position, specks[i], sizeof specks[i]);
+    memcpy(s->indices, indices, sizeof indices);
+    for (int i = 0; i < 4; i++) /* RGBA: a checker of 2 x 2 */
+        s->texels[4 * i + 3] = i == 0 || i == 3 ? 200 : 100;
+}
+
+/* @param texture  0: none @return how many of the layer of the sheet are marked */
+static int count_layer(fixture *f, uint32_t texture, float factor)
+{
+    const nook_ao_triangle_range ranges[2] = { { 0, 6, 0, 1 }, { 6, 6, 0, 0 } };
+    const nook_ao_live_mask mask = { texture, factor, 0.5f };
+    int count = 0;
+    f->part.ranges = ranges;
+    f->part.range_count = 2;
+    f->mesh.parts = &f->part;
+    f->mesh.masks = &mask;
+    read_voxels(f);
+    for (int y = 2; y < RESOLUTION; y++)
+        for (int x = 2; x < RESOLUTION; x++)
+            count += f->voxels[(25 * GRID + y) * GRID + x] != 0;
+    f->part.ranges = NULL;
+    f->mesh.masks = NULL;
+    return count;
+}
+
+static void test_masks_have_the_holes_that_the_bake_has(void **state)
+{
+    nook_gpu *gpu = test_gpu_of(state);
+    static soup s;
+    checked_sheet sheet;
+    nook_texture texture;
+    nook_volume baked;
+    make_checked_sheet(&sheet);
+    make_soup(&s, 1);
+    fixture f = open_fixture(gpu, &s);
+    nook_buffer_destroy(gpu, &f.vertices);
+    nook_buffer_destroy(gpu, &f.indices);
+    assert_int_equal(nook_buffer_create(gpu, sheet.vertices, sizeof sheet.vertices, &f.vertices), NOOK_OK);
+    assert_int_equal(nook_buffer_create(gpu, sheet.indices, sizeof sheet.indices, &f.indices), NOOK_OK);
+    f.mesh.vertex_buffer = f.vertices.id, f.mesh.index_buffer = f.indices.id;
+    f.mesh.vertex_stride = sizeof sheet.vertices[0];
+    f.mesh.uv_offset = 3 * sizeof(float);
+    assert_int_equal(nook_texture_create_mipped(gpu, GL_SRGB8_ALPHA8, 2, 2, sheet.texels, &texture), NOOK_OK);
+    const int all = count_layer(&f, 0, 1.0f), half = count_layer(&f, texture.id, 1.0f);
+    static uint8_t voxels[GRID * GRID * GRID];
+    memcpy(voxels, f.voxels, sizeof voxels);
+    assert_int_equal(all, (RESOLUTION - 2) * (RESOLUTION - 2));
+    assert_int_equal(count_layer(&f, texture.id, 0.6f), 0);   /* of 200, too */
+    assert_int_equal(count_layer(&f, texture.id, 1.3f), all); /* of 100, too */
+    float uvs[10][2];
+    for (int i = 0; i < 10; i++)
+        memcpy(uvs[i], sheet.vertices[i].uv, sizeof uvs[i]);
+    nook_alpha_part part = test_mask(0, 6, sheet.texels, 2);
+    part.texel_size = 4;
+    const nook_alphas alphas = { &part, 1, uvs[0] };
+    const nook_triangles triangles = { sheet.vertices[0].position, sizeof sheet.vertices[0], 10, sheet.indices, 12 };
+    const nook_voxelize_desc desc = { .resolution = RESOLUTION, .threads = 1, .alphas = &alphas };
+    assert_int_equal(nook_voxelize(&triangles, &desc, &baked), NOOK_OK);
+    for (int y = 2; y < RESOLUTION; y++)
+        for (int x = 2; x < RESOLUTION; x++)
+            assert_int_equal(voxels[(25 * GRID + y) * GRID + x] != 0, baked_at(&baked, x, y, 25));
+    assert_int_equal(half, all / 2);
+    nook_volume_free(&baked);
+    nook_texture_destroy(gpu, &texture);
+    close_fixture(&f);
+}
+
 static void test_a_volume_made_anew_forgets_what_was_in_it(void **state)
 {
     nook_gpu *gpu = test_gpu_of(state);
@@ -254,7 +345,7 @@ static void test_parts_stand_where_their_matrices_put_them(void **state)
             s.positions[i][k] = 0.5f * p[(k + 1) % 3];
     }
     f = open_fixture(gpu, &s);
-    nook_ao_triangle_range halves[2] = { { 0, TRIANGLES * 3, 0 }, { TRIANGLES * 3, 6, 0 } };
+    nook_ao_triangle_range halves[2] = { { 0, TRIANGLES * 3, 0, 0 }, { TRIANGLES * 3, 6, 0, 0 } };
     nook_ao_live_part parts[2] = { { &halves[0], 1, { 0 } }, { &halves[1], 1, { 0 } } };
     for (int i = 0; i < 2; i++) {
         for (int k = 0; k < 3; k++)
@@ -351,6 +442,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_slicemaps_mark_what_the_bake_marks, test_gpu_setup, test_gpu_teardown),
+        cmocka_unit_test_setup_teardown(test_masks_have_the_holes_that_the_bake_has, test_gpu_setup, test_gpu_teardown),
         cmocka_unit_test_setup_teardown(test_a_volume_made_anew_forgets_what_was_in_it, test_gpu_setup,
                                         test_gpu_teardown),
         cmocka_unit_test_setup_teardown(test_what_is_made_of_the_atlas_learns_of_a_volume_made_anew, test_gpu_setup,

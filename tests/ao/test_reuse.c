@@ -284,7 +284,7 @@ static void test_bodies_that_come_go_or_change_places_leave_nothing_behind(void 
 /** One of two boxes, in the same grid: of what is told of the volume nothing changes. */
 static void voxelize(const room *r, nook_ao_volume volume, const nook_buffer buffers[2], uint32_t box)
 {
-    const nook_ao_triangle_range range = { 36 * box, 36, 0 };
+    const nook_ao_triangle_range range = { 36 * box, 36, 0, 0 };
     nook_ao_live_part part = { .ranges = &range, .range_count = 1 };
     memcpy(part.volume_from_part, nook_matrix_identity().m, sizeof part.volume_from_part);
     const nook_ao_live_mesh mesh = { .vertex_buffer = buffers[0].id,

@@ -13,3 +13,5 @@ enum { BONE_SCENE_ROWS = 9, BONE_SCENE_LOWER = 3, BONE_SCENE_MESH_NODE = 1 };
 
 /** Loaded from a file in the scratch folder, like any other. @param root  where the root stands, metres @return destroy it */
 nook_scene *bone_scene_load(const double root[3]);
+/** The same with holes: of every half metre along it the first half is there, by a mask. */
+nook_scene *bone_scene_load_masked(const double root[3]);
