@@ -33,6 +33,8 @@ static nook_result create_buffers(nook_ao *ao, size_t frame_size)
     if (result == NOOK_OK)
         result = nook_texture_create_buffer(ao->gpu, GL_RGBA32F, ao->occluder_buffer, &ao->occluder_texture);
     if (result == NOOK_OK)
+        result = ao_bins_create(ao->gpu, ao->occluder_max, &ao->bins);
+    if (result == NOOK_OK)
         result = nook_buffer_create(ao->gpu, NULL, sizeof(ao_counts), &ao->counter);
     return result;
 }
@@ -91,6 +93,7 @@ void nook_ao_destroy(nook_ao *ao)
     ao_targets_release(ao->gpu, &ao->targets);
     ao_refine_release(ao->gpu, &ao->refine);
     ao_reuse_release(ao);
+    ao_bins_release(ao->gpu, &ao->bins);
     for (int kind = 0; kind < NOOK_VOLUME_KINDS; kind++)
         volume_atlas_release(&ao->atlases[kind]);
     brick_pool_release(&ao->pool);

@@ -2,6 +2,7 @@
  * ao_internal.h - the inside of nook_ao, shared by the files of modules/ao only.
  */
 #pragma once
+#include "modules/ao/bins_internal.h"
 #include "modules/ao/brick_pool_internal.h"
 #include "modules/ao/mesh_alphas_internal.h"
 #include "modules/ao/nook_ao.h"
@@ -38,11 +39,11 @@ typedef struct ao_mesh {
 typedef struct ao_gpu_occluder {
     float voxel_from_view[3][4];  /**< Rows: voxel coordinates of the volume, (0, 0, 0) at its outer corner. */
     float normal_from_view[3][4]; /**< Rows of the inverse transpose of the 3x3 part; w unused. */
-    float size[4];                /**< Voxels; w: the box's bounding radius in metres. */
+    float size[4];                /**< Voxels; w unused. */
     /** Voxel in its kind's atlas that is the volume's (0, 0, 0). Surfel: number of its first brick, x + 65536 y; a float alone
         does not hold all of them. Density, w: nook_volume_info.depth_of_255. */
     float place[4];
-    float centre[4]; /**< View space, metres; w unused. */
+    float centre[4]; /**< View space, metres; w: the box's bounding radius. */
 } ao_gpu_occluder;
 
 /** Block Counter of shaders/ao/counter.glsl. */
@@ -95,7 +96,8 @@ struct nook_ao {
     ao_refine refine;
     ao_reuse reuse;
     nook_buffer frame, occluder_buffer, counter;
-    uint32_t nearest_sampler;                /**< Of the host's textures. */
+    uint32_t nearest_sampler; /**< Of the host's textures. */
+    ao_bins bins;
     nook_texture occluder_texture;           /**< The buffer's rows as texels. */
     volume_atlas atlases[NOOK_VOLUME_KINDS]; /**< Of each kind but surfels, which are in the pool. */
     ao_voxelizer voxelizer;

@@ -44,13 +44,13 @@ void ao_set_sphere(const nook_matrix *view_from_voxel, const double low[3], cons
     }
     for (int axis = 0; axis < 3; axis++)
         out->centre[axis] = (float)centre[axis];
-    out->size[3] = (float)radius;
+    out->centre[3] = (float)radius;
 }
 
 /** A shader gets floats: entries must be some, and none of its axes may have vanished. */
 static int fits_floats(const ao_gpu_occluder *o)
 {
-    int fits = isfinite(o->size[3]);
+    int fits = isfinite(o->centre[3]);
     for (int row = 0; row < 3; row++) {
         const float *m = o->voxel_from_view[row], *n = o->normal_from_view[row];
         float linear = m[0] * m[0] + m[1] * m[1] + m[2] * m[2], normal = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];

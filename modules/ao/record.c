@@ -9,7 +9,7 @@
 _Static_assert(offsetof(frame_block, view_from_world) == 96, "std140 places view_from_world at 96");
 _Static_assert(offsetof(frame_block, origin) == 144 && sizeof(frame_block) == 208, "std140 places origin at 144");
 
-enum { BINDING_FETCHES = 2, AO_TEXTURE_UNITS = 8 };
+enum { BINDING_FETCHES = 2, BINDING_BINS = 2, AO_TEXTURE_UNITS = 8 };
 enum { COUNT_SUMS = 1, COUNT_PIXELS = 2, COUNT_STEPS = 4 }; /* shaders/ao/counter.glsl */
 
 static const double RIGID_TOLERANCE = 1e-5; /* what a product of a few matrices in float leaves */
@@ -105,6 +105,7 @@ static frame_block make_block(const nook_ao *ao, const nook_ao_frame *frame, int
         .filter_normal = shared->filter_normal,
         .has_normal = frame->normal.native != 0,
         .filter_kind = shared->filter,
+        .bins_across = (int32_t)ao->bins.across,
         .refine_weight = shared->refine_weight,
         .refine_reach = shared->refine_reach,
         .origin = { region->origin[0], region->origin[1] },
@@ -125,6 +126,23 @@ static frame_block make_block(const nook_ao *ao, const nook_ao_frame *frame, int
     return block;
 }
 
+/** Of this frame's trace. */
+static nook_result fill_bins(nook_ao *ao, const nook_ao_frame *frame)
+{
+    const uint32_t scale = 1u << ao->scale;
+    frame_block projection = { 0 };
+    set_projection(frame->clip_from_view, &projection);
+    const ao_bin_view view = {
+        .size = { nook_groups(ao->width, scale), nook_groups(ao->height, scale) },
+        .full_size = { ao->width, ao->height },
+        .scale = scale,
+        .ray_scale = { projection.ray_scale[0], projection.ray_scale[1] },
+        .ray_offset = { projection.ray_offset[0], projection.ray_offset[1] },
+        .r_max = (double)ao->shared.r_max,
+    };
+    return ao_bins_fill(ao->gpu, &ao->bins, &view, ao->gpu_occluders, ao->statistics.occluders);
+}
+
 static nook_result upload_inputs(nook_ao *ao, const nook_ao_frame *frame, int counting)
 {
     static const ao_counts zero = { 0 };
@@ -133,6 +151,9 @@ static nook_result upload_inputs(nook_ao *ao, const nook_ao_frame *frame, int co
         result = volume_atlas_flush(&ao->atlases[kind]);
     if (result == NOOK_OK)
         result = brick_pool_flush(&ao->pool);
+    if (result != NOOK_OK)
+        return result;
+    result = fill_bins(ao, frame);
     if (result != NOOK_OK)
         return result;
     frame_block block = make_block(ao, frame, counting);
@@ -196,6 +217,7 @@ static nook_ao_pass make_pass(nook_ao *ao, const nook_ao_frame *frame, uint32_t 
         .occluders = ao->occluder_buffer,
         .occluder_texture = ao->occluder_texture,
         .occluder_count = ao->statistics.occluders,
+        .bins = ao->bins.across ? &ao->bins.buffer : NULL,
         .meshes = ao->mesh_views,
         .mesh_count = ao->mesh_count,
         .instances = ao->instances,
@@ -214,6 +236,8 @@ static void bind_pass(const nook_ao_pass *pass)
     nook_bind_texture(pass->gpu, 5, pass->bricks);
     nook_bind_texture(pass->gpu, 6, pass->surfels);
     nook_bind_storage(pass->gpu, AO_BINDING_COUNTER, pass->counter);
+    if (pass->bins)
+        nook_bind_storage(pass->gpu, BINDING_BINS, *pass->bins);
     nook_bind_image(pass->gpu, 0, pass->visibility, GL_READ_WRITE);
 }
 
@@ -310,6 +334,7 @@ static nook_result trace_listed(nook_ao *ao, const nook_ao_frame *frame, const a
         return result;
     pass->listed = &ao->refine.listed;
     pass->tiles = NULL;
+    pass->bins = NULL; /* its groups are no tiles of the picture */
     pass->visibility = ao->refine.traced;
     pass->width = ao->refine.traced.width, pass->height = ao->refine.traced.height;
     bind_pass(pass);

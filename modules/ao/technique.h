@@ -14,7 +14,7 @@
 extern "C" {
 #endif
 
-#define NOOK_AO_TECHNIQUE_VERSION 11
+#define NOOK_AO_TECHNIQUE_VERSION 12
 
 /** A box of voxels. */
 typedef struct nook_ao_box {
@@ -95,6 +95,9 @@ typedef struct nook_ao_pass {
     nook_texture occluder_texture; /**< RGBA32F of a buffer: the occluders' rows. Binding 3. */
     nook_buffer occluders;         /**< That buffer. */
     uint32_t occluder_count;
+    /** NULL: too few to be sorted. Else which of them may reach which part of the picture, for programs with BINNED defined:
+        shaders/ao/tile_list.glsl. Storage, binding 2. */
+    const nook_buffer *bins;
 
     /** NOOK_AO_IN_MESHES. */
     const nook_ao_mesh_view *meshes;

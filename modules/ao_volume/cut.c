@@ -1,48 +1,53 @@
 #include "modules/ao/technique.h"
 #include "modules/ao_volume/cut_internal.h"
+#include "modules/ao_volume/limits.def"
 
 /**
- * Loop turns: a ray at an occluder takes up to TURNS_PER_MISS when it misses the box, and one more per sample and at the end when it
- * meets it. RAYS_PER_DISPATCH keeps a GPU's dispatches short.
+ * Loop turns: a ray at an occluder that it meets takes one per sample and up to TURNS_PER_HIT more. Invocations look for the next occluder
+ * that reaches their point each by itself (tile_next of shaders/ao/tile_list.glsl), once for all rays of a batch, and list it before. llvmpipe
+ * counts turns of a vector, that is LANES invocations: where each passes over others, as many turns; neighbours as a rule pass over the same.
+ * RAYS_PER_DISPATCH keeps a GPU's dispatches short.
  */
 enum {
     TURNS_PER_DISPATCH = NOOK_AO_TURNS_PER_DISPATCH,
-    TURNS_PER_MISS = 3,
+    TURNS_PER_HIT = 4,
+    TURNS_TO_LIST = 1,
+    LANES = 8,
     BOXES_PER_RAY = 16,
     RAYS_PER_DISPATCH = 64
 };
 
-static uint32_t clamp(uint64_t value, uint32_t lowest, uint32_t highest)
+static uint32_t clamp(int64_t value, uint32_t lowest, uint32_t highest)
 {
     return value < lowest ? lowest : value > highest ? highest : (uint32_t)value;
 }
 
-static uint32_t turns_per_hit(const volume_work *work)
+static int64_t turns_per_hit(const volume_work *work)
 {
-    return TURNS_PER_MISS + work->steps + 1;
+    return (int64_t)work->steps + TURNS_PER_HIT;
 }
 
-/* Turns of one ray at all occluders when it meets `met` of them. */
-static uint64_t turns_per_ray(const volume_work *work, uint32_t met)
+/** @param lanes  invocations of a vector that look at other occluders */
+static volume_cut cut_union(const volume_work *work, uint32_t met, int64_t lanes)
 {
-    uint64_t boxes = met < work->occluders ? met : work->occluders;
-    return boxes * turns_per_hit(work) + (work->occluders - boxes) * TURNS_PER_MISS;
-}
-
-static volume_cut cut_union(const volume_work *work, uint32_t met)
-{
-    uint64_t rays = TURNS_PER_DISPATCH / turns_per_ray(work, met);
-    return (volume_cut){ clamp(rays, 1, RAYS_PER_DISPATCH), work->occluders, false };
+    int64_t search = work->occluders * (lanes + TURNS_TO_LIST); /* of a batch; the last one may have one ray only */
+    int64_t boxes = met < work->occluders ? met : work->occluders, ray = boxes * turns_per_hit(work);
+    int64_t turns = TURNS_PER_DISPATCH, batch = VOLUME_RAYS_AT_ONCE, batches = turns / (batch * ray + search);
+    int64_t rest = (turns - batches * (batch * ray + search) - search) / ray;
+    return (volume_cut){ clamp(batches * batch + (rest > 0 ? rest : 0), 1, RAYS_PER_DISPATCH), work->occluders, false };
 }
 
 volume_cut volume_cut_careful(const volume_work *work)
 {
-    uint32_t pairs = TURNS_PER_DISPATCH / turns_per_hit(work); /* of a ray and an occluder */
+    /* Of a ray and an occluder; all rays of one occluder take one look. */
+    const int64_t turns = TURNS_PER_DISPATCH, hit = turns_per_hit(work), look = LANES + TURNS_TO_LIST;
+    const uint32_t pairs = clamp(turns / (hit + look), 1, UINT32_MAX);
     volume_cut cut;
     if (work->multiply)
-        cut = (volume_cut){ clamp(pairs, 1, work->rays), clamp(pairs / work->rays, 1, work->occluders), true };
+        cut = (volume_cut){ clamp((turns - look) / hit, 1, work->rays),
+                            clamp(turns / (work->rays * hit + look), 1, work->occluders), true };
     else if (work->occluders <= pairs)
-        cut = cut_union(work, work->occluders);
+        cut = cut_union(work, work->occluders, LANES);
     else
         cut = (volume_cut){ 1, pairs, true };
     cut.sure = true;
@@ -55,14 +60,14 @@ volume_cut volume_cut_likely(const volume_work *work)
     if (work->occluders <= BOXES_PER_RAY)
         return careful;
     if (!work->multiply) {
-        volume_cut likely = cut_union(work, BOXES_PER_RAY);
+        volume_cut likely = cut_union(work, BOXES_PER_RAY, 1);
         return likely.rays > careful.rays || careful.occluders < work->occluders ? likely : careful;
     }
     /* All rays of more occluders, when those that a ray does not meet are so cheap. */
-    uint64_t turns = TURNS_PER_DISPATCH / work->rays, met = (uint64_t)BOXES_PER_RAY * turns_per_hit(work);
-    if (careful.occluders < BOXES_PER_RAY || turns <= met)
+    int64_t met = (int64_t)BOXES_PER_RAY * turns_per_hit(work) * work->rays;
+    if (careful.occluders < BOXES_PER_RAY || met >= TURNS_PER_DISPATCH)
         return careful;
-    uint64_t occluders = BOXES_PER_RAY + (turns - met) / TURNS_PER_MISS;
+    int64_t occluders = (TURNS_PER_DISPATCH - met) / (1 + TURNS_TO_LIST);
     return (volume_cut){ work->rays, clamp(occluders, 1, work->occluders), false };
 }
 

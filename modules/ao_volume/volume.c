@@ -23,10 +23,10 @@ enum {
 enum { LOCATION_PART = 0, LOCATION_OCCLUDERS = 1 };
 
 /**
- * Loop turns of a ray in a volume of surfels, densities or distances: beside VOLUME_TURNS_PER_VOXEL what sorting a list takes for it; and as
- * a rule, counted in rooms and around single objects, where the longest through surfels took 77.
+ * Loop turns of a ray in a volume of surfels, densities or distances as a rule, counted in rooms and around single objects, where the
+ * longest through surfels took 77.
  */
-enum { TURNS_OF_SORTING = 5, TURNS_USUALLY = 128 };
+enum { TURNS_USUALLY = 128 };
 
 typedef struct volume_state {
     nook_direction_texture directions;
@@ -163,7 +163,7 @@ static volume_task make_task(const volume_params *p, const nook_ao_pass *pass)
                                p->combine == COMBINE_MULTIPLY || p->path == PATH_RASTER };
     volume_task task = { .usual = work, .most = work, .kept_format = GL_R32F };
     if (p->kind != NOOK_VOLUME_BINARY) {
-        task.most.steps = VOLUME_TURNS_PER_VOXEL * pass->line_max + TURNS_OF_SORTING;
+        task.most.steps = VOLUME_TURNS_PER_VOXEL * pass->line_max;
         task.usual.steps = at_most(TURNS_USUALLY, task.most.steps);
         task.kept_format = p->kind == NOOK_VOLUME_DISTANCE ? GL_R32F : GL_RGBA32F;
     }
@@ -206,15 +206,15 @@ static nook_result choose_program(volume_state *s, const volume_params *p, const
         [NOOK_VOLUME_SURFEL] = "shaders/ao/surfel.frag.glsl",
         [NOOK_VOLUME_DISTANCE] = "shaders/ao/distance.frag.glsl",
     };
-    char defines[64];
+    char defines[96];
     int corners = p->kind == NOOK_VOLUME_BINARY && p->sampling == SAMPLING_CORNERS;
     nook_result result = corners ? volume_corners_fit(&s->corners, pass) : NOOK_OK;
     if (result != NOOK_OK)
         return result;
     if (corners)
         nook_bind_texture(pass->gpu, BINDING_CORNERS, s->corners.texture);
-    snprintf(defines, sizeof defines, "%s%s%s", corners ? "#define CORNERS\n" : "",
-             pass->tiles ? "#define TILES\n" : "", nook_ao_pass_defines(pass));
+    snprintf(defines, sizeof defines, "%s%s%s%s", corners ? "#define CORNERS\n" : "",
+             pass->tiles ? "#define TILES\n" : "", pass->bins ? "#define BINNED\n" : "", nook_ao_pass_defines(pass));
     if (is_drawn(p, pass))
         return nook_program_raster(pass->gpu, "shaders/ao/volume_box.vert.glsl", drawn[p->kind], defines, out_program);
     return nook_program_compute(pass->gpu, computed[p->kind], defines, out_program);

@@ -14,7 +14,7 @@ void main()
     vec3 position = view_position(pixel, depth);
     if (tile_begin(depth, position)) {
         for (int chunk = 0; chunk < occluder_count; chunk += CHUNK) {
-            tile_list(chunk, occluder_count);
+            tile_list(chunk, ivec2(0, occluder_count), ivec2(0, occluder_count));
             for (uint i = 0u; depth > 0.0 && i < tile_count; i++) {
                 Occluder o = occluder_at(tile_items[i]);
                 count += uint(is_near(o, to_voxel(o, position)));

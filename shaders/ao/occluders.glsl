@@ -6,10 +6,10 @@
 struct Occluder {
     vec4 voxel_from_view[3];  // rows
     vec4 normal_from_view[3]; // rows of the inverse transpose
-    vec4 size;                // voxels; w: bounding radius, metres
+    vec4 size;                // voxels
     vec4 place;               // voxel of the atlas that is our (0, 0, 0); surfel: first brick, x + 65536 y;
                               // density, w: of a medium, the optical depth of a voxel of 255; else 0
-    vec4 centre;              // view space
+    vec4 centre;              // view space; w: bounding radius, metres
 };
 const int OCCLUDER_ROWS = 9;
 layout(binding = 3) uniform samplerBuffer occluder_rows; // a software driver reads storage at half the speed

@@ -83,7 +83,7 @@ bool near_what_moved(bool wanted, vec3 position, vec3 normal)
 {
     bool found = false;
     for (int chunk = 0; chunk < reuse.moved_count; chunk += CHUNK) {
-        tile_list(chunk, reuse.moved_count);
+        tile_list(chunk, ivec2(0, reuse.moved_count), ivec2(0, reuse.moved_count));
         uint count = wanted ? tile_count : 0u;
         for (uint i = 0u; i < count && !found; i++)
             found = may_darken(occluder_at(tile_items[i]), position, normal);
@@ -119,7 +119,7 @@ bool may_have_changed(bool wanted, int since, vec3 position, vec3 normal)
     tangent_frame(normal, tangent, bitangent);
     mat3 plane_from_view = transpose(mat3(tangent, bitangent, normal));
     for (int chunk = 0; chunk < reuse.moved_count; chunk += CHUNK) {
-        tile_list(chunk, reuse.moved_count);
+        tile_list(chunk, ivec2(0, reuse.moved_count), ivec2(0, reuse.moved_count));
         uint count = wanted ? tile_count : 0u;
         for (uint i = 0u; i < count && sum <= reuse.error; i++)
             sum += change_by(tile_items[i], since, position, plane_from_view);

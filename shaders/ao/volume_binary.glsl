@@ -76,7 +76,7 @@ Receiver receive(Occluder o, vec3 position, vec3 normal)
     r.guard = r.slab * stretch;
     // Highest point of the volume above the fragment's plane: below the slab there is nothing to hit.
     float top = dot(r.normal, 0.5 * o.size.xyz - r.voxel) + dot(abs(r.normal), 0.5 * o.size.xyz - MARGIN);
-    r.can_see = is_near(o, r.voxel) && top > r.slab && r.guard < frame.r_max;
+    r.can_see = top > r.slab && r.guard < frame.r_max;
     if (r.can_see && params.guard == GUARD_SEEN) {
         vec3 way = -direction_to_voxel(o, position);
         r.voxel += way * way_out(o, r.voxel + r.normal * r.slab, way);

@@ -27,7 +27,7 @@ Receiver receive(Occluder o, vec3 position, vec3 normal)
     bool medium = o.place.w > 0.0; // has no surface of its own: what lies around the fragment takes its part
     r.own = medium ? -1.0 : 0.5 * max(abs(r.normal.x), max(abs(r.normal.y), abs(r.normal.z))) + 0.002 + params.own_distance;
     float top = dot(r.normal, 0.5 * o.size.xyz - r.voxel) + dot(abs(r.normal), 0.5 * o.size.xyz - 1.5);
-    r.can_see = is_near(o, r.voxel) && top > r.own;
+    r.can_see = top > r.own;
     return r;
 }
 

@@ -25,6 +25,7 @@ float sum_union(float sum, bool inside, vec3 position, vec3 normal, ivec2 pixel)
     vec3 tangent, bitangent;
     tangent_frame(normal, tangent, bitangent);
     int block = block_of(pixel);
+    ivec2 places = tile_places(part.z, part.w);
     Passage start = free_passage();
     if (part.z > 0) {
         vec4 kept = imageLoad(kept_image, place);
@@ -35,23 +36,23 @@ float sum_union(float sum, bool inside, vec3 position, vec3 normal, ivec2 pixel)
         Passage met[BATCH];
         for (int j = 0; j < BATCH; j++)
             met[j] = start;
-        for (int chunk = part.z; chunk < part.w; chunk += CHUNK) {
-            if (first == part.x || part.w - part.z > CHUNK) {
-                tile_list(chunk, part.w);
-                tile_sort();
-            }
-            for (uint i = 0u; inside && i < tile_count; i++) {
-                Occluder o = occluder_at(tile_items[i]);
-                Receiver r = receive(o, position, normal);
-                if (!r.can_see)
-                    continue;
-                for (int j = 0; j < BATCH; j++) { // a constant bound, so that met[] can live in registers
-                    if (j >= batch)
-                        break;
-                    vec3 d = direction(first + j, params.rays, block, tangent, bitangent, normal);
-                    met[j] = combine(met[j], walk_volume(o, r, d, met[j].end));
+        for (int chunk = places.x; chunk < places.y; chunk += CHUNK) {
+            if (first == part.x || places.y - places.x > CHUNK)
+                tile_list(chunk, places, part.zw);
+            uint i = tile_next(inside ? 0u : tile_count, position);
+            do {
+                if (i < tile_count) {
+                    Occluder o = occluder_at(tile_items[i]);
+                    Receiver r = receive(o, position, normal);
+                    for (int j = 0; j < BATCH; j++) { // a constant bound, so that met[] can live in registers
+                        if (!r.can_see || j >= batch)
+                            break;
+                        vec3 d = direction(first + j, params.rays, block, tangent, bitangent, normal);
+                        met[j] = combine(met[j], walk_volume(o, r, d, met[j].end));
+                    }
                 }
-            }
+                i = tile_next(i + 1u, position);
+            } while (i < tile_count);
         }
         if (part.w < occluder_count)
             imageStore(kept_image, place, vec4(met[0].occlusion, met[0].transmittance, met[0].end, 0.0));

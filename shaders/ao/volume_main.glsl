@@ -16,10 +16,15 @@ layout(std430, binding = 5) buffer Again {
 float multiply_visibilities(float visibility, bool inside, vec3 position, vec3 normal, ivec2 pixel)
 {
     Bundle bundle = bundle_of(pixel, position, normal);
-    for (int chunk = part.z; chunk < part.w; chunk += CHUNK) {
-        tile_list(chunk, part.w);
-        for (uint i = 0u; inside && i < tile_count; i++)
-            visibility *= visibility_past(occluder_at(tile_items[i]), bundle);
+    ivec2 places = tile_places(part.z, part.w);
+    for (int chunk = places.x; chunk < places.y; chunk += CHUNK) {
+        tile_list(chunk, places, part.zw);
+        uint i = tile_next(inside ? 0u : tile_count, position);
+        do {
+            if (i < tile_count)
+                visibility *= visibility_past(occluder_at(tile_items[i]), bundle);
+            i = tile_next(i + 1u, position);
+        } while (i < tile_count);
     }
     return visibility;
 }

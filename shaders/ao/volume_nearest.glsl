@@ -13,26 +13,28 @@ float sum_union(float sum, bool inside, vec3 position, vec3 normal, ivec2 pixel)
     vec3 tangent, bitangent;
     tangent_frame(normal, tangent, bitangent);
     int block = block_of(pixel);
+    ivec2 places = tile_places(part.z, part.w);
     float shift = noise(pixel, 1u), start = part.z > 0 ? imageLoad(kept_image, place).r : frame.r_max;
     for (int first = part.x; first < part.y; first += BATCH) {
         int batch = min(BATCH, part.y - first);
         Batch nearest = Batch(vec4(start), vec4(start));
-        for (int chunk = part.z; chunk < part.w; chunk += CHUNK) {
-            if (first == part.x || part.w - part.z > CHUNK)
-                tile_list(chunk, part.w);
-            uint listed = inside ? tile_count : 0u;
-            for (uint i = 0u; i < listed; i++) {
-                Occluder o = occluder_at(tile_items[i]);
-                Receiver r = receive(o, position, normal);
-                if (!r.can_see)
-                    continue;
-                for (int j = 0; j < batch; j++) {
-                    vec3 d = direction(first + j, params.rays, block, tangent, bitangent, normal);
-                    float jitter = fract(shift + float(first + j) * 0.61803399);
-                    float before = batch_get(nearest, j);
-                    batch_set(nearest, j, min(before, march(o, r, d, dot(d, normal), before, jitter)));
+        for (int chunk = places.x; chunk < places.y; chunk += CHUNK) {
+            if (first == part.x || places.y - places.x > CHUNK)
+                tile_list(chunk, places, part.zw);
+            uint i = tile_next(inside ? 0u : tile_count, position);
+            do {
+                if (i < tile_count) {
+                    Occluder o = occluder_at(tile_items[i]);
+                    Receiver r = receive(o, position, normal);
+                    for (int j = 0; r.can_see && j < batch; j++) {
+                        vec3 d = direction(first + j, params.rays, block, tangent, bitangent, normal);
+                        float jitter = fract(shift + float(first + j) * 0.61803399);
+                        float before = batch_get(nearest, j);
+                        batch_set(nearest, j, min(before, march(o, r, d, dot(d, normal), before, jitter)));
+                    }
                 }
-            }
+                i = tile_next(i + 1u, position);
+            } while (i < tile_count);
         }
         if (part.w < occluder_count)
             imageStore(kept_image, place, vec4(nearest.low.x));

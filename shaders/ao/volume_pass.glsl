@@ -1,7 +1,7 @@
 #pragma once
 // What the shaders of the technique "volume" share, two for each kind of volume: what is bound, and which part of the work a dispatch or
 // a draw does. A kind, volume_KIND.glsl, has
-//   struct Receiver { ...; bool can_see; }                                a fragment as one occluder sees it
+//   struct Receiver { ...; bool can_see; }                                a fragment as one occluder that is_near sees it
 //   Receiver receive(Occluder o, vec3 position, vec3 normal)
 //   float occlusion_along(Occluder o, Receiver r, vec3 d, float cosine, float jitter)
 //   image2D kept_image                                                    what waits for the next part; multiply: x is a sum
@@ -34,7 +34,7 @@ int line_voxels(ivec3 size)
     return size.x + size.y + size.z;
 }
 
-const int BATCH = 8; // rays whose hits are held in registers
+const int BATCH = VOLUME_RAYS_AT_ONCE;
 
 // A number for each ray of a batch. Not an array: that a loop indexes would lie in memory, and a software driver writes there lane by
 // lane, with a jump for each.

@@ -15,6 +15,6 @@ Receiver receive_above(Occluder o, vec3 position, vec3 normal, float margin, flo
     r.voxel = to_voxel(o, position);
     r.normal = normalize(normal_to_voxel(o, normal));
     float top = dot(r.normal, 0.5 * o.size.xyz - r.voxel) + dot(abs(r.normal), 0.5 * o.size.xyz - margin);
-    r.can_see = is_near(o, r.voxel) && top > least;
+    r.can_see = top > least;
     return r;
 }

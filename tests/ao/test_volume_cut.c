@@ -10,21 +10,27 @@ enum { TURNS_MAX = 65535 }; /* of all loops of an invocation: llvmpipe */
 static const uint32_t many[] = { 1, 2, 7, 16, 17, 64, 300, 1024, 4096, 65536 };
 enum { MANY = sizeof many / sizeof *many };
 
-/* Loops over samples with their last, failing test, over rays, over occluders. */
-static uint64_t turns(const volume_work *work, const volume_cut *cut, uint32_t met)
+/**
+ * Loops over samples with their last, failing test, and over rays; over those that reach the point, with a look at each of all, by each of
+ * `lanes` invocations of a vector at others of them; and over their list, 64 at once, and then in words of 32 bits. Union once for each 8
+ * rays, and again through the list if it has more than one chunk.
+ */
+static uint64_t turns(const volume_work *work, const volume_cut *cut, uint32_t met, uint64_t lanes)
 {
-    uint64_t boxes = met < cut->occluders ? met : cut->occluders, missed = cut->occluders - boxes;
-    return cut->rays * (boxes * (work->steps + 1 + 2) + missed * 2) + cut->occluders / 64;
+    uint64_t boxes = met < cut->occluders ? met : cut->occluders, batches = work->multiply ? 1 : (cut->rays + 7) / 8;
+    uint64_t chunks = (cut->occluders + 255) / 256, list = cut->occluders / 64 + cut->occluders / 32 + 3 * chunks;
+    uint64_t look = boxes + (cut->occluders - boxes) + (lanes - 1) * cut->occluders + chunks;
+    return cut->rays * boxes * (work->steps + 1 + 1) + batches * (boxes + look + list);
 }
 
-static void check_cut(const volume_work *work, const volume_cut *cut, uint32_t met)
+static void check_cut(const volume_work *work, const volume_cut *cut, uint32_t met, uint64_t lanes)
 {
     assert_in_range(cut->rays, 1, work->rays > 64 ? work->rays : 64);
     assert_in_range(cut->occluders, 1, work->occluders);
-    if (turns(work, cut, met) > TURNS_MAX)
+    if (turns(work, cut, met, lanes) > TURNS_MAX)
         fail_msg("%u rays, %u steps, %u occluders, %s: %u rays of %u occluders take %llu turns", work->rays,
                  work->steps, work->occluders, work->multiply ? "product" : "union", cut->rays, cut->occluders,
-                 (unsigned long long)turns(work, cut, met));
+                 (unsigned long long)turns(work, cut, met, lanes));
     if (work->multiply && cut->rays < work->rays)
         assert_int_equal(cut->occluders, 1); /* one sum waits for the next part */
     if (!work->multiply && cut->occluders < work->occluders)
@@ -44,16 +50,16 @@ static void check_careful(const volume_work *work)
 {
     volume_cut cut = volume_cut_careful(work);
     assert_true(cut.sure);
-    check_cut(work, &cut, work->occluders);
+    check_cut(work, &cut, work->occluders, 8);
 }
 
 static void check_likely(const volume_work *work)
 {
     volume_cut cut = volume_cut_likely(work);
     if (cut.sure)
-        check_cut(work, &cut, work->occluders);
+        check_cut(work, &cut, work->occluders, 8);
     else if (work->occluders <= 4096) /* of more, missing alone may be too much for a ray: then it is done again */
-        check_cut(work, &cut, 16);
+        check_cut(work, &cut, 16, 1);
 }
 
 static void check_common(const volume_work *work)
