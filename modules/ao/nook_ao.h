@@ -23,7 +23,7 @@
 extern "C" {
 #endif
 
-#define NOOK_AO_VERSION 4
+#define NOOK_AO_VERSION 5
 
 typedef struct nook_ao nook_ao; /**< One per device and view. */
 typedef struct nook_ao_volume {
