@@ -17,9 +17,11 @@ const float UNCUT = 8.0; // voxels, farther than any place that is asked about
 // made of moments may cut off.
 const float SIDE_SLACK = 0.04;
 // A plane that stands for two sheets a quarter voxel apart lies half of that from either: what faces exactly like the receiver and is
-// farther away is another sheet. A curved surface turns by an angle within a voxel and leaves its tangent plane by half of that.
-const float OWN_FLAT = 0.15, OWN_CURVED = 0.5;
+// farther away is another sheet. A curved surface that turns by an angle on the half voxel from a plane's middle to where the receiver
+// lies leaves that plane by a quarter of the angle.
+const float OWN_FLAT = 0.15, OWN_CURVED = 0.25;
 const float FACES_ALIKE = 0.6; // cosine from which a plane may be the receiver's own: the normals of a voxel's two planes differ
+const float ACROSS = 0.1;      // cosine below which it stands upright on the receiver: to which side it leans is rounding
 const float PARALLEL = 1e-6;   // cosine
 
 // A ray from a fragment, as one volume sees it.
@@ -71,12 +73,14 @@ bool is_in_interval(uint word, vec3 at)
 }
 
 // The surface that the fragment itself lies on never occludes it: a plane that faces like it, of which it is not far, and which the
-// ray leaves behind.
-bool is_own(vec4 plane, vec3 point, vec3 normal, float slope)
+// ray leaves behind. One that leans over it as the other plane of an edge does is told from what is really there only by the place where
+// the ray meets it, h, and that is known to within the tolerance: what lies nearer than this to the start may lie behind it.
+bool is_own(vec4 plane, vec3 point, vec3 normal, float slope, float h)
 {
-    float facing = dot(plane.xyz, normal), height = dot(plane.xyz, point) - plane.w;
+    float facing = dot(plane.xyz, normal), height = dot(plane.xyz, point) - plane.w, likeness = abs(facing);
     float most = min(params.own_distance, OWN_FLAT + OWN_CURVED * sqrt(max(1.0 - facing * facing, 0.0)));
-    return abs(facing) > FACES_ALIKE && abs(height) < most && (facing < 0.0 ? -slope : slope) > 0.0;
+    bool near = likeness > FACES_ALIKE ? abs(height) < most : likeness > ACROSS && h < params.tolerance;
+    return near && (facing < 0.0 ? -slope : slope) > 0.0;
 }
 
 // Where the ray meets a plane of a voxel that it crosses from `enter` to `leave`, or -1. origin, point: from the voxel's middle. box: 0 for
@@ -98,7 +102,7 @@ float hit_plane(uint word, vec4 plane, vec4 other, uint box, Ray ray, vec3 origi
     } else if (box != 0u) {
         hit = is_in_box(box, at);
     }
-    return hit && !is_own(plane, point, ray.normal, slope) ? h : -1.0;
+    return hit && !is_own(plane, point, ray.normal, slope, h) ? h : -1.0;
 }
 
 // Where planes reach out of their voxels the same surface is met twice: it counts once.
