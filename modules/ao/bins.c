@@ -123,12 +123,14 @@ static uint32_t place_lists(ao_bins *bins, uint32_t count)
     const uint32_t bin_count = bins->across * bins->down;
     const size_t room = words_of(bin_count, bins->item_max);
     uint32_t used = bin_count * HEAD;
+    bins->longest = 0;
     for (uint32_t bin = 0; bin < bin_count; bin++) {
         uint32_t *head = &bins->words[bin * HEAD], items = head[1];
         bool listed = items <= count / 2 && used + items <= room;
         head[0] = used;
         head[1] = listed ? 0 : AO_BIN_OF_ALL;
         used += listed ? items : 0;
+        bins->longest = !listed ? count : items > bins->longest ? items : bins->longest;
     }
     return used;
 }
@@ -152,6 +154,7 @@ nook_result ao_bins_fill(nook_gpu *gpu, ao_bins *bins, const ao_bin_view *view, 
                          uint32_t count)
 {
     bins->across = bins->down = 0;
+    bins->longest = count;
     if (count < bins->least)
         return NOOK_OK;
     const uint32_t across = nook_groups(view->size[0], AO_BIN_SIZE), down = nook_groups(view->size[1], AO_BIN_SIZE);

@@ -39,6 +39,7 @@ typedef struct ao_bins {
     ao_bin_rectangle *rectangles; /**< Scratch, of each occluder. Owned. */
     uint32_t bin_max, item_max;   /**< There is room for: bins, entries of all lists together. */
     uint32_t least;               /**< From this many occluders on there are bins: AO_BINS_LEAST; tests set it. */
+    uint32_t longest;             /**< The most occluders that a tile of this record tests: of a bin's list, or all. */
     uint32_t across, down; /**< Bins of this record's picture; 0: none are needed, all tiles test all occluders. */
 } ao_bins;
 

@@ -217,6 +217,7 @@ static nook_ao_pass make_pass(nook_ao *ao, const nook_ao_frame *frame, uint32_t 
         .occluders = ao->occluder_buffer,
         .occluder_texture = ao->occluder_texture,
         .occluder_count = ao->statistics.occluders,
+        .occluders_tested = ao->bins.longest,
         .bins = ao->bins.across ? &ao->bins.buffer : NULL,
         .meshes = ao->mesh_views,
         .mesh_count = ao->mesh_count,
@@ -334,7 +335,7 @@ static nook_result trace_listed(nook_ao *ao, const nook_ao_frame *frame, const a
         return result;
     pass->listed = &ao->refine.listed;
     pass->tiles = NULL;
-    pass->bins = NULL; /* its groups are no tiles of the picture */
+    pass->bins = NULL, pass->occluders_tested = pass->occluder_count; /* its groups are no tiles of the picture */
     pass->visibility = ao->refine.traced;
     pass->width = ao->refine.traced.width, pass->height = ao->refine.traced.height;
     bind_pass(pass);

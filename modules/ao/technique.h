@@ -14,7 +14,7 @@
 extern "C" {
 #endif
 
-#define NOOK_AO_TECHNIQUE_VERSION 12
+#define NOOK_AO_TECHNIQUE_VERSION 13
 
 /** A box of voxels. */
 typedef struct nook_ao_box {
@@ -98,6 +98,7 @@ typedef struct nook_ao_pass {
     /** NULL: too few to be sorted. Else which of them may reach which part of the picture, for programs with BINNED defined:
         shaders/ao/tile_list.glsl. Storage, binding 2. */
     const nook_buffer *bins;
+    uint32_t occluders_tested; /**< By a tile at the most: of a bin's list, or all. */
 
     /** NOOK_AO_IN_MESHES. */
     const nook_ao_mesh_view *meshes;

@@ -11,6 +11,7 @@
 enum {
     TURNS_PER_DISPATCH = NOOK_AO_TURNS_PER_DISPATCH,
     TURNS_PER_HIT = 4,
+    TURNS_PER_MISS = 3,
     TURNS_TO_LIST = 1,
     LANES = 8,
     BOXES_PER_RAY = 16,
@@ -54,20 +55,30 @@ volume_cut volume_cut_careful(const volume_work *work)
     return cut;
 }
 
+/** Of what a tile does not test, nothing is looked at. Else piled up occluders are met by rays that the cut takes for misses: room for those. */
+static int64_t turns_likely(int64_t tested, const volume_work *work)
+{
+    int64_t boxes = tested < BOXES_PER_RAY ? tested : BOXES_PER_RAY;
+    return boxes * turns_per_hit(work) + (tested - boxes) * TURNS_PER_MISS;
+}
+
 volume_cut volume_cut_likely(const volume_work *work)
 {
     volume_cut careful = volume_cut_careful(work);
+    int64_t tested = work->tested && work->tested < work->occluders ? work->tested : work->occluders;
     if (work->occluders <= BOXES_PER_RAY)
         return careful;
     if (!work->multiply) {
-        volume_cut likely = cut_union(work, BOXES_PER_RAY, 1);
+        int64_t rays = TURNS_PER_DISPATCH / (turns_likely(tested, work) + 1);
+        volume_cut likely = { clamp(rays, 1, RAYS_PER_DISPATCH), work->occluders, false };
         return likely.rays > careful.rays || careful.occluders < work->occluders ? likely : careful;
     }
     /* All rays of more occluders, when those that a ray does not meet are so cheap. */
-    int64_t met = (int64_t)BOXES_PER_RAY * turns_per_hit(work) * work->rays;
-    if (careful.occluders < BOXES_PER_RAY || met >= TURNS_PER_DISPATCH)
+    int64_t turns = TURNS_PER_DISPATCH / work->rays, met = turns_likely(BOXES_PER_RAY, work);
+    if (careful.occluders < BOXES_PER_RAY || turns <= met)
         return careful;
-    int64_t occluders = (TURNS_PER_DISPATCH - met) / (1 + TURNS_TO_LIST);
+    int64_t occluders =
+        turns_likely(tested, work) < turns ? work->occluders : BOXES_PER_RAY + (turns - met) / TURNS_PER_MISS;
     return (volume_cut){ work->rays, clamp(occluders, 1, work->occluders), false };
 }
 

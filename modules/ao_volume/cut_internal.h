@@ -13,7 +13,8 @@
 /** What there is to do. */
 typedef struct volume_work {
     uint32_t rays, steps, occluders;
-    bool multiply; /**< Else union. */
+    bool multiply;   /**< Else union. */
+    uint32_t tested; /**< Of the occluders by one tile, at the most. 0: all. */
 } volume_work;
 
 /** Rays and occluders of one dispatch. */

@@ -160,7 +160,7 @@ static volume_task make_task(const volume_params *p, const nook_ao_pass *pass)
 {
     uint32_t out = p->guard == GUARD_SEEN ? VOLUME_TURNS_OUT : 0; /* once for all rays, but they may be in parts */
     const volume_work work = { (uint32_t)p->rays, (uint32_t)p->steps + out, pass->occluder_count,
-                               p->combine == COMBINE_MULTIPLY || p->path == PATH_RASTER };
+                               p->combine == COMBINE_MULTIPLY || p->path == PATH_RASTER, pass->occluders_tested };
     volume_task task = { .usual = work, .most = work, .kept_format = GL_R32F };
     if (p->kind != NOOK_VOLUME_BINARY) {
         task.most.steps = VOLUME_TURNS_PER_VOXEL * pass->line_max;

@@ -40,7 +40,7 @@ static void check_cut(const volume_work *work, const volume_cut *cut, uint32_t m
 static void for_each_work(void (*check)(const volume_work *work))
 {
     for (uint32_t i = 0; i < MANY * MANY * MANY * 2; i++) {
-        const volume_work work = { many[i / 2 % MANY], many[i / 2 / MANY % MANY], many[i / 2 / MANY / MANY], i % 2 };
+        const volume_work work = { many[i / 2 % MANY], many[i / 2 / MANY % MANY], many[i / 2 / MANY / MANY], i % 2, 0 };
         if (work.rays <= 4096 && work.steps <= 1024)
             check(&work);
     }
@@ -86,6 +86,20 @@ static void test_a_few_occluders_are_never_done_again(void **state)
     for_each_work(check_common);
 }
 
+static void test_what_no_tile_tests_takes_no_room_in_a_dispatch(void **state)
+{
+    (void)state;
+    for (uint32_t multiply = 0; multiply < 2; multiply++) {
+        volume_work work = { .rays = 8, .steps = 96, .occluders = 4096, .multiply = multiply };
+        volume_cut piled = volume_cut_likely(&work);
+        assert_true(piled.rays < 8 || piled.occluders < 4096);
+        work.tested = 128;
+        volume_cut apart = volume_cut_likely(&work);
+        assert_in_range(apart.rays, 8, 64);
+        assert_int_equal(apart.occluders, 4096);
+    }
+}
+
 static void test_only_cuts_of_a_ray_or_of_an_occluder_keep_an_image(void **state)
 {
     (void)state;
@@ -109,6 +123,7 @@ int main(void)
         cmocka_unit_test(test_careful_cuts_hold_whatever_meets_what),
         cmocka_unit_test(test_likely_cuts_hold_when_a_ray_meets_sixteen_boxes),
         cmocka_unit_test(test_a_few_occluders_are_never_done_again),
+        cmocka_unit_test(test_what_no_tile_tests_takes_no_room_in_a_dispatch),
         cmocka_unit_test(test_only_cuts_of_a_ray_or_of_an_occluder_keep_an_image),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
