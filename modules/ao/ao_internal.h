@@ -121,6 +121,7 @@ struct nook_ao {
     uint32_t line_max;  /**< Of the last record: nook_ao_pass. */
     int counting;       /**< Of the last record: frame.counting of shaders/ao/counter.glsl. */
     int refining;       /**< Of the last record: ao_refining. */
+    int supporting;     /**< Of the last record: ao_work. */
 };
 
 void ao_slot_release(nook_ao *ao, ao_slot *slot); /**< By its technique's code. */
@@ -150,6 +151,7 @@ typedef struct ao_work {
     int32_t passes;  /**< After the trace, that read pixels around: ao_region_make. */
     int counting;    /**< frame.counting of shaders/ao/counter.glsl. */
     int refining;    /**< ao_refining. */
+    int supporting; /**< Not 0: filtered pixels of the trace that few samples are like trace more: shaders/ao/support.glsl. */
 } ao_work;
 
 /**
@@ -159,8 +161,14 @@ typedef struct ao_work {
 nook_result ao_begin(nook_ao *ao, const nook_ao_frame *frame, const ao_work *work, nook_ao_pass *out_pass);
 /** Depth and normals of the whole picture: techniques look beyond the part that is recorded. */
 nook_result ao_fill_inputs(nook_ao *ao, const nook_ao_frame *frame);
-/** From the trace's visibility to that of the picture. */
-nook_result ao_filter(nook_ao *ao, const nook_ao_frame *frame);
+/** From the trace's visibility to that of the picture, in one. */
+nook_result ao_filter(nook_ao *ao);
+/** In two: to that of the trace, filtered; from there to the picture. */
+nook_result ao_filter_trace(nook_ao *ao);
+nook_result ao_upscale(nook_ao *ao, const nook_ao_frame *frame);
+/** Between these two: what filtering has listed, made ready to be traced; and from what was traced of it to the filtered trace. */
+nook_result ao_support_gather(nook_ao *ao);
+nook_result ao_support_finish(nook_ao *ao);
 /** What upscaling has listed, made ready to be traced. */
 nook_result ao_refine_gather(nook_ao *ao, const nook_ao_frame *frame);
 /** From what was traced of it to the picture. */

@@ -27,5 +27,7 @@ typedef struct frame_block {
     int32_t full_begin[2], full_end[2];
     float texel[2], full_texel[2]; /**< 1 / size, 1 / full_size. */
     float refine_weight;
-    int32_t refine_reach; /**< A block's size is a multiple of 16 bytes. */
+    int32_t refine_reach;
+    int32_t support;
+    int32_t padding_end[3]; /**< A block's size is a multiple of 16 bytes. */
 } frame_block;

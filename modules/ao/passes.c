@@ -101,7 +101,7 @@ static nook_result dispatch_full(nook_ao *ao, const char *path, const char *defi
                             (uint32_t)(region->full_end[1] - region->full_begin[1]));
 }
 
-static nook_result filter_direct(nook_ao *ao)
+nook_result ao_filter(nook_ao *ao)
 {
     bind_filter(ao, ao->targets.visibility);
     return dispatch_full(ao, "shaders/ao/filter.comp.glsl", "");
@@ -149,7 +149,7 @@ static nook_result refine_around(nook_ao *ao, int has_normal)
 }
 
 /** Where the picture has 4 or 16 times the pixels of the trace, most of the filter's work is done once for all of them. */
-static nook_result filter_stepped(nook_ao *ao, const nook_ao_frame *frame)
+nook_result ao_filter_trace(nook_ao *ao)
 {
     ao_trace *trace = &ao->targets.traces[ao->scale];
     const ao_region *region = &ao->recorded;
@@ -157,26 +157,40 @@ static nook_result filter_stepped(nook_ao *ao, const nook_ao_frame *frame)
     if (result != NOOK_OK)
         return result;
     bind_filter(ao, trace->filtered);
-    result =
-        ao_dispatch_over(ao, "shaders/ao/filter.comp.glsl", "#define AT_TRACE\n",
-                         (uint32_t)(region->end[0] - region->begin[0]), (uint32_t)(region->end[1] - region->begin[1]));
-    if (result != NOOK_OK)
-        return result;
+    if (ao->supporting)
+        ao_refine_begin(ao->gpu, &ao->refine);
+    return ao_dispatch_over(ao, "shaders/ao/filter.comp.glsl",
+                            ao->supporting ? "#define AT_TRACE\n#define SUPPORT\n" : "#define AT_TRACE\n",
+                            (uint32_t)(region->end[0] - region->begin[0]),
+                            (uint32_t)(region->end[1] - region->begin[1]));
+}
+
+nook_result ao_support_gather(nook_ao *ao)
+{
+    return dispatch_listed(ao, "shaders/ao/support_gather.comp.glsl", "", ao->refine.candidates);
+}
+
+nook_result ao_support_finish(nook_ao *ao)
+{
+    ao_refine_bind(ao->gpu, &ao->refine); /* the technique may have bound others */
+    nook_bind_image(ao->gpu, 0, ao->targets.traces[ao->scale].filtered, GL_READ_WRITE);
+    nook_bind_image(ao->gpu, 1, ao->refine.traced, GL_READ_ONLY);
+    return dispatch_listed(ao, "shaders/ao/support_finish.comp.glsl", "", ao->refine.listed);
+}
+
+nook_result ao_upscale(nook_ao *ao, const nook_ao_frame *frame)
+{
+    const ao_trace *trace = &ao->targets.traces[ao->scale];
     bind_host(ao, frame);
     nook_bind_texture(ao->gpu, 2, trace->filtered);
     nook_bind_image(ao->gpu, 0, ao->targets.visibility, GL_WRITE_ONLY);
     if (ao->refining)
         ao_refine_begin(ao->gpu, &ao->refine);
-    result = upscale(ao, frame->normal.native != 0);
+    nook_result result = upscale(ao, frame->normal.native != 0);
     if (result == NOOK_OK && ao->refining)
         result = refine_around(ao, frame->normal.native != 0);
     release_host(ao);
     return result;
-}
-
-nook_result ao_filter(nook_ao *ao, const nook_ao_frame *frame)
-{
-    return is_stepped(ao) ? filter_stepped(ao, frame) : filter_direct(ao);
 }
 
 nook_result ao_refine_gather(nook_ao *ao, const nook_ao_frame *frame)

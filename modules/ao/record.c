@@ -7,9 +7,9 @@
 #include <string.h>
 
 _Static_assert(offsetof(frame_block, view_from_world) == 96, "std140 places view_from_world at 96");
-_Static_assert(offsetof(frame_block, origin) == 144 && sizeof(frame_block) == 208, "std140 places origin at 144");
+_Static_assert(offsetof(frame_block, origin) == 144 && sizeof(frame_block) == 224, "std140 places origin at 144");
 
-enum { BINDING_FETCHES = 2, BINDING_BINS = 2, AO_TEXTURE_UNITS = 8 };
+enum { BINDING_FETCHES = 2, BINDING_BINS = 2, AO_TEXTURE_UNITS = 8, FILTER_TILE = 2 };
 enum { COUNT_SUMS = 1, COUNT_PIXELS = 2, COUNT_STEPS = 4 }; /* shaders/ao/counter.glsl */
 
 static const double RIGID_TOLERANCE = 1e-5; /* what a product of a few matrices in float leaves */
@@ -108,6 +108,7 @@ static frame_block make_block(const nook_ao *ao, const nook_ao_frame *frame, int
         .bins_across = (int32_t)ao->bins.across,
         .refine_weight = shared->refine_weight,
         .refine_reach = shared->refine_reach,
+        .support = shared->support,
         .origin = { region->origin[0], region->origin[1] },
         .begin = { region->begin[0], region->begin[1] },
         .end = { region->end[0], region->end[1] },
@@ -260,6 +261,7 @@ nook_result ao_begin(nook_ao *ao, const nook_ao_frame *frame, const ao_work *wor
     ao->scale = work->scale;
     ao->counting = work->counting;
     ao->refining = work->refining;
+    ao->supporting = work->supporting;
     ao->kinds = work->kinds;
     ao->recorded = ao_region_make(ao, &frame->part, 1u << work->scale, work->passes);
     nook_matrix view_from_world;
@@ -272,7 +274,7 @@ nook_result ao_begin(nook_ao *ao, const nook_ao_frame *frame, const ao_work *wor
     for (GLuint unit = 0; unit < AO_TEXTURE_UNITS; unit++)
         ao->gpu->gl->BindSampler(unit, 0); /* the host's would change how our textures are sampled */
     result = ao_targets_fit(ao->gpu, &ao->targets, ao->width, ao->height, ao->scale);
-    if (result == NOOK_OK && work->refining)
+    if (result == NOOK_OK && (work->refining || work->supporting))
         result = ao_refine_fit(ao->gpu, &ao->refine, ao->width, ao->height, (double)ao->shared.refine_share);
     if (result == NOOK_OK)
         result = upload_inputs(ao, frame, work->counting);
@@ -306,6 +308,8 @@ static ao_work work_of(const nook_ao *ao, const ao_slot *slot, const nook_ao_fra
                       .scale = scale,
                       .passes = direct ? 0 : 1 + stepped,
                       .refining = stepped ? refining_of(ao, technique) : AO_REFINING_NOTHING,
+                      .supporting =
+                          stepped && technique->refines && ao->shared.filter == FILTER_TILE && ao->shared.support > 1,
                       .counting = technique->exact ? 0 : counting /* truth reads nothing of the kind */ };
 }
 
@@ -328,19 +332,40 @@ static nook_result trace(nook_ao *ao, const nook_ao_frame *frame, const ao_slot 
 }
 
 /** Everything that the trace has bound is bound again: filter and upscaling came between. */
-static nook_result trace_listed(nook_ao *ao, const nook_ao_frame *frame, const ao_slot *slot, nook_ao_pass *pass)
+static nook_result trace_listed(nook_ao *ao, const ao_slot *slot, nook_ao_pass *pass)
 {
-    nook_result result = ao_refine_gather(ao, frame);
-    if (result != NOOK_OK)
-        return result;
     pass->listed = &ao->refine.listed;
     pass->tiles = NULL;
     pass->bins = NULL, pass->occluders_tested = pass->occluder_count; /* its groups are no tiles of the picture */
     pass->visibility = ao->refine.traced;
     pass->width = ao->refine.traced.width, pass->height = ao->refine.traced.height;
     bind_pass(pass);
-    result = slot->technique->record(slot->state, slot->params, pass);
-    return result == NOOK_OK ? ao_refine_finish(ao) : result;
+    return slot->technique->record(slot->state, slot->params, pass);
+}
+
+/** From the trace to the picture. */
+static nook_result finish(nook_ao *ao, const nook_ao_frame *frame, const ao_slot *slot, nook_ao_pass *pass, int stepped)
+{
+    if (!stepped)
+        return ao_filter(ao);
+    nook_result result = ao_filter_trace(ao);
+    if (result == NOOK_OK && ao->supporting) {
+        result = ao_support_gather(ao);
+        if (result == NOOK_OK)
+            result = trace_listed(ao, slot, pass);
+        if (result == NOOK_OK)
+            result = ao_support_finish(ao);
+    }
+    if (result == NOOK_OK)
+        result = ao_upscale(ao, frame);
+    if (result == NOOK_OK && ao->refining == AO_REFINING_TRACED) {
+        result = ao_refine_gather(ao, frame);
+        if (result == NOOK_OK)
+            result = trace_listed(ao, slot, pass);
+        if (result == NOOK_OK)
+            result = ao_refine_finish(ao);
+    }
+    return result;
 }
 
 nook_result nook_ao_record(nook_ao *ao, const nook_ao_frame *frame)
@@ -357,9 +382,7 @@ nook_result nook_ao_record(nook_ao *ao, const nook_ao_frame *frame)
         return result;
     result = trace(ao, frame, slot, &pass);
     if (result == NOOK_OK && work.passes > 0)
-        result = ao_filter(ao, frame);
-    if (result == NOOK_OK && work.refining == AO_REFINING_TRACED)
-        result = trace_listed(ao, frame, slot, &pass);
+        result = finish(ao, frame, slot, &pass, work.passes == 2);
     if (nook_gpu_check(ao->gpu, "nook_ao_record") && result == NOOK_OK)
         result = NOOK_E_DEVICE; /* the check has logged what it was */
     return result;
@@ -391,7 +414,8 @@ void nook_ao_get_statistics(nook_ao *ao, nook_ao_statistics *out_statistics)
                                        ? brick_pool_bytes(&ao->pool)
                                        : volume_atlas_bytes(marched_atlas(ao));
     out_statistics->texture_bytes = ao_targets_bytes(&ao->targets, ao->scale) +
-                                    (ao->refining ? ao_refine_bytes(&ao->refine) : 0) + ao_reuse_bytes(&ao->reuse);
+                                    (ao->refining || ao->supporting ? ao_refine_bytes(&ao->refine) : 0) +
+                                    ao_reuse_bytes(&ao->reuse);
     out_statistics->refined = ao->refining ? ao_refine_count(ao->gpu, &ao->refine) : 0;
     out_statistics->traced = ao_reuse_count_traced(ao);
     out_statistics->fetches_per_pixel = 0.0;

@@ -2,7 +2,7 @@
 // by distance to the pixel's plane and by normal. ao.filter chooses which: none, the nearest sample; disc, the paper's 17-sample
 // Gaussian disc, narrowed along the depth gradient so that it stays on the surface; tile, the 4x4 pixels that share one set of
 // rays. For full-resolution pixels it upscales in the same pass; with AT_TRACE defined it filters the trace's own, and
-// upscale.comp.glsl comes after it.
+// upscale.comp.glsl comes after it; with SUPPORT it lists those that it finds too few samples for: support.glsl.
 #include "ao/guide.glsl"
 layout(local_size_x = 16, local_size_y = 8) in;
 layout(binding = 2) uniform sampler2D depth_trace_texture;
@@ -10,6 +10,9 @@ layout(binding = 3) uniform sampler2D normal_trace;
 layout(binding = 4) uniform sampler2D visibility_trace_texture;
 #ifdef AT_TRACE
 layout(binding = 0, rgba32f) uniform writeonly image2D filtered_out; // as upscale.comp.glsl reads it
+#ifdef SUPPORT
+#include "ao/support.glsl"
+#endif
 #else
 layout(binding = 0) uniform sampler2D depth_full;
 layout(binding = 1) uniform sampler2D normal_full;
@@ -133,7 +136,8 @@ void add_tile(inout Mean mean, Guide guide, vec2 centre)
     }
 }
 
-float filtered(vec2 centre, Guide guide, ivec2 p)
+// @param support  samples that it is the mean of, by their weight
+float filtered(vec2 centre, Guide guide, ivec2 p, out float support)
 {
 #ifdef AT_TRACE
     ivec2 start = p;
@@ -145,6 +149,7 @@ float filtered(vec2 centre, Guide guide, ivec2 p)
         add_disc(mean, guide, centre, p);
     else if (frame.filter_kind == FILTER_TILE)
         add_tile(mean, guide, centre);
+    support = mean.weights;
     if (frame.filter_kind == FILTER_DISC && mean.weights <= 0.0)
         add_tile(mean, guide, centre); // a wide disc can miss what lies close by
     if (frame.filter_kind != FILTER_NONE && mean.weights <= 0.0)
@@ -158,13 +163,16 @@ void main()
     ivec2 p = frame.begin + ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(p, frame.end)))
         return;
-    float depth = trace_depth(p), result = 1.0;
+    float depth = trace_depth(p), result = 1.0, support = 1e9;
     vec3 normal = vec3(0.0);
     if (depth > 0.0) {
         normal = nook_octahedral_decode(fetch_trace(normal_trace, p).xy);
-        result = bounded(filtered(vec2(p), make_guide(view_position(p, depth), normal), p));
+        result = bounded(filtered(vec2(p), make_guide(view_position(p, depth), normal), p, support));
     }
     imageStore(filtered_out, p, vec4(normal * depth, result));
+#ifdef SUPPORT
+    list_unsupported(p, support);
+#endif
     add_counts_of(p * frame.scale, frame.scale);
 }
 #else
@@ -173,10 +181,10 @@ void main()
     ivec2 p = frame.full_begin + ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(p, frame.full_end)))
         return;
-    float depth = fetch_full(depth_full, p).r, result = 1.0;
+    float depth = fetch_full(depth_full, p).r, result = 1.0, support;
     if (depth > 0.0) {
         vec3 normal = nook_octahedral_decode(fetch_full(normal_full, p).xy);
-        result = bounded(filtered(trace_centre(p), make_guide(full_ray(vec2(p)) * depth, normal), p));
+        result = bounded(filtered(trace_centre(p), make_guide(full_ray(vec2(p)) * depth, normal), p, support));
     }
     imageStore(visibility_out, p, vec4(result));
     add_counts_of(p, 1);

@@ -27,6 +27,7 @@ layout(std140, binding = 0) uniform Frame {
     vec2 texel, full_texel;      // 1 / size, 1 / full_size
     float refine_weight;         // samples that weigh less do not stand for a pixel: refine.glsl
     int refine_reach;            // trace pixels
+    int support;                 // samples that a filtered pixel of the trace is the mean of at least: support.glsl
 } frame;
 
 #ifdef DRAWN // not computed: the fragment shader says which pixel it is

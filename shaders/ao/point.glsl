@@ -21,9 +21,9 @@ Point point_of_invocation()
     uint i = gl_WorkGroupID.x * REFINE_GROUP + gl_LocalInvocationIndex;
     bool wanted = i < listed_count();
     uvec4 record = wanted ? listed.records[i] : uvec4(0u);
-    ivec2 pixel = unpack_pixel(record.x);
+    ivec2 pixel = unpack_pixel(record.x), numbers = unpack_pixel(record.w);
     float depth = uintBitsToFloat(record.y);
-    return Point(pixel, listed_place(i), wanted, depth, full_ray(vec2(pixel)) * depth);
+    return Point(numbers, listed_place(i), wanted, depth, full_ray(vec2(pixel)) * depth);
 }
 
 vec3 normal_of(Point point)
@@ -34,7 +34,9 @@ vec3 normal_of(Point point)
 
 void add_counts_of(Point point)
 {
-    add_counts_of(point.pixel, 1);
+    uint i = uint(point.place.y) * REFINE_GROUP + uint(point.place.x);
+    if (point.wanted)
+        add_counts_of(unpack_pixel(listed.records[i].x), 1);
 }
 #else
 Point point_of_invocation()

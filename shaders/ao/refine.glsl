@@ -17,7 +17,7 @@ layout(std430, binding = 4) buffer Listed {
     uint groups_x, groups_y, groups_z;
     uint count; // may be more than the capacity
     uint capacity, padding0, padding1, padding2;
-    uvec4 records[]; // pixel, distance, normal, and what came of it
+    uvec4 records[]; // pixel, distance, normal, and the pixel whose random numbers it takes; later what came of it
 } listed;
 
 uint pack_pixel(ivec2 p)
@@ -40,6 +40,15 @@ ivec2 listed_place(uint i)
 uint stride()
 {
     return gl_NumWorkGroups.x * REFINE_GROUP;
+}
+
+// Of candidates that make up to `points` each. By a hash of the pixel, so that the order of the list does not decide. Four standard deviations
+// of their number are kept free: were there too many of them, the order would.
+bool is_chosen(ivec2 p, uint points)
+{
+    uint wanted = candidates.count * points;
+    float room = float(listed.capacity), share = (room - 4.0 * sqrt(room * float(points))) / float(wanted);
+    return wanted <= listed.capacity || float(hash(pack_pixel(p)) >> 8) * (1.0 / 16777216.0) < share;
 }
 
 uint listed_count()

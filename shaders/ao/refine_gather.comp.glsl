@@ -5,14 +5,6 @@
 layout(local_size_x = 64) in;
 layout(binding = 0, r32f) uniform writeonly image2D visibility_out;
 
-// By a hash of the pixel, so that the order of the list does not decide. Four standard deviations of their number are kept free: were there
-// too many of them, the order would.
-bool is_chosen(ivec2 p)
-{
-    float room = float(listed.capacity), share = (room - 4.0 * sqrt(room)) / float(candidates.count);
-    return candidates.count <= listed.capacity || float(hash(pack_pixel(p)) >> 8) * (1.0 / 16777216.0) < share;
-}
-
 void list_pixel(ivec2 p)
 {
     uint record = atomicAdd(listed.count, 1u);
@@ -22,7 +14,7 @@ void list_pixel(ivec2 p)
     float depth = distance_at(p);
     vec3 normal = guide_normal(p, full_ray(vec2(p)) * depth);
     listed.records[record] =
-        uvec4(pack_pixel(p), floatBitsToUint(depth), packUnorm2x16(nook_octahedral_encode(normal)), 0u);
+        uvec4(pack_pixel(p), floatBitsToUint(depth), packUnorm2x16(nook_octahedral_encode(normal)), pack_pixel(p));
     imageStore(visibility_out, p, vec4(-1.0 - float(record)));
     add_counts_of(p, 1);
     fetches = 0u;
@@ -32,7 +24,7 @@ void main()
 {
     for (uint i = gl_GlobalInvocationID.x; i < candidates.count; i += stride()) {
         ivec2 p = unpack_pixel(candidates.pixels[i]);
-        if (is_chosen(p))
+        if (is_chosen(p, 1u))
             list_pixel(p);
     }
 }

@@ -1,6 +1,5 @@
 #pragma once
-// Upscaling's side of the refinement: lists pixels whose samples of the trace weigh too little together.
-#ifdef REFINE
+// How candidates are listed; upscaling's are the pixels whose samples of the trace weigh too little together.
 #include "ao/refine.glsl"
 
 // Room for `wanted` candidates in a row: neighbours stay together, so that they meet the same volumes.
@@ -21,4 +20,3 @@ void list_block(ivec2 first, int side, uint bits)
         bits &= bits - 1u;
     }
 }
-#endif

@@ -5,7 +5,9 @@
 // so that each of these is read once for all of them. REFINE, what weighs too little is listed for refine.glsl.
 #include "ao/upscale.glsl"
 #include "ao/host.glsl"
+#ifdef REFINE
 #include "ao/refine_list.glsl"
+#endif
 layout(local_size_x = 16, local_size_y = 8) in;
 layout(binding = 2) uniform sampler2D filtered_trace; // xyz: normal times depth, 0 without geometry; w: visibility
 layout(binding = 0, r32f) uniform writeonly image2D visibility_out;

@@ -1,0 +1,38 @@
+// From the pixels that lack others to the list of points that are traced: for each that is missing one, at the place of the pixel, with the
+// rays of the one missing.
+#include "ao/counter.glsl"
+#include "ao/support.glsl"
+layout(local_size_x = 64) in;
+layout(binding = 2) uniform sampler2D depth_trace_texture;
+layout(binding = 3) uniform sampler2D normal_trace;
+
+// A pixel of p's tile: that whose block of rays (blocks.glsl) differs from p's in the bits of `number`. 1 to 3 lie two away, at the rim of
+// the filter's window; and with p's they are rays that follow each other in the sequence.
+ivec2 missing_pixel(ivec2 p, int number)
+{
+    int y = (number >> 2 & 1) | (number & 1) << 1, odd = (number >> 3 & 1) | (number & 2);
+    return p ^ ivec2(odd ^ y, y);
+}
+
+void list_missing(ivec2 p, int lacking)
+{
+    uint first = atomicAdd(listed.count, uint(lacking));
+    uint end = min(first + uint(lacking), listed.capacity);
+    atomicMax(listed.groups_x, (end + REFINE_GROUP - 1u) / REFINE_GROUP);
+    uint depth = floatBitsToUint(fetch_trace(depth_trace_texture, p).r);
+    uint normal = packUnorm2x16(fetch_trace(normal_trace, p).xy);
+    for (uint i = first; i < end; i++)
+        listed.records[i] = uvec4(pack_pixel(full_pixel(p)), depth, normal, pack_pixel(missing_pixel(p, int(i - first) + 1)));
+    add_counts_of(p * frame.scale, frame.scale);
+    fetches = 0u;
+}
+
+void main()
+{
+    for (uint i = gl_GlobalInvocationID.x; i < candidates.count; i += stride()) {
+        uint bits = candidates.pixels[i];
+        ivec2 p = unsupported_pixel(bits);
+        if (is_chosen(p, uint(frame.support - 1)))
+            list_missing(p, unsupported_lacking(bits));
+    }
+}
