@@ -165,6 +165,7 @@ nook_result ao_filter_trace(nook_ao *ao)
                             (uint32_t)(region->end[1] - region->begin[1]));
 }
 
+/** Reads depth and normals of the trace where filtering has bound them. */
 nook_result ao_support_gather(nook_ao *ao)
 {
     return dispatch_listed(ao, "shaders/ao/support_gather.comp.glsl", "", ao->refine.candidates);
