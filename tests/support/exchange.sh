@@ -19,7 +19,7 @@ make_game() {
     sed "$2" "$1" >"$tmp/$(basename "$1")"
     ! cmp -s "$1" "$tmp/$(basename "$1")" || { echo "make_game: nothing was changed by $2"; return 1; }
     link_library game game/entry/game_entry.c "$tmp/$(basename "$1")" \
-        -Wl,--start-group "$bin"/libnook_{game,measure,fixture,ao,ao_ecs,trace,bake}.a -Wl,--end-group
+        -Wl,--start-group "$bin"/libnook_{game,plan,measure,fixture,ao_ecs,stream,ao,trace,bake}.a -Wl,--end-group
 }
 
 # make_technique NAME: the library of a technique, of its sources under $root (window.sh: copy_root).
