@@ -6,9 +6,8 @@
  * Times    of whole frames where software draws them; of a GPU its own, as the wait for the monitor says nothing of what is left.
  * Smaller  as soon as 3 of the last 20 frames were longer than 15/16 of what they may take: at once by as many steps as the third
  *          longest asks for. One or two long frames are the machine's, and no size mends them.
- * Larger   by one step, when by their pixels nearly all frames of the last two seconds would have been in time in that size; where
- *          the last such try failed soon, twice as long must have passed, and so on up to half a minute. So a load that lies between two sizes does
- *          not pump.
+ * Larger   by one step, when for 40 frames in a row the third longest of the last 20 would by its pixels have been in time in that
+ *          size; where the last such try failed soon, for twice as many, and so on up to 640. So a load between two sizes does not pump.
  * Changes cost a frame or two: textures are made anew and nothing can be taken over from the frame before. These do not count.
  */
 #pragma once

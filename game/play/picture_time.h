@@ -1,6 +1,6 @@
 /**
  * picture_time.h - how long the picture of a frame took, as far as its size can change that: a GPU's own time where it can be
- * asked, some frames late and without waiting; else, where software draws, the whole frame's.
+ * asked, some frames late, when it has been there for long; else, where software draws, the whole frame's.
  */
 #pragma once
 #include "engine/gpu/gpu.h"

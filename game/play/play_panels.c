@@ -147,6 +147,11 @@ static void draw_preference(nook_play_window *window, nook_overlay *overlay, con
     if (param->type == NOOK_PARAM_CHOICE) {
         changed = nook_overlay_choice(overlay, label, &choice, param->choices);
         value = choice;
+    } else if (param->type == NOOK_PARAM_INT) {
+        int whole = (int)value;
+        changed = nook_overlay_slider_int(overlay, label, &whole, (int)param->lowest, (int)param->highest,
+                                          nook_unit_name(param->unit));
+        value = whole;
     } else {
         changed =
             nook_overlay_slider(overlay, label, &value, param->lowest, param->highest, nook_unit_name(param->unit));

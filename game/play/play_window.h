@@ -73,6 +73,7 @@ typedef struct nook_play_window {
     double frame_seconds, frame_rate;
     double clock_ms, left; /**< At the last frame; seconds that no tick has used yet. */
     nook_picture_fit picture_fit;
+    uint32_t whole[2]; /**< Pixels of the picture's sides if there is time for all of them. */
     nook_picture_time picture_time;
     bool went_on; /**< The last frame had ticks and was drawn. */
     nook_frame_pacing pacing;

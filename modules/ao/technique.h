@@ -14,7 +14,7 @@
 extern "C" {
 #endif
 
-#define NOOK_AO_TECHNIQUE_VERSION 13
+#define NOOK_AO_TECHNIQUE_VERSION 14
 
 /** A box of voxels. */
 typedef struct nook_ao_box {
@@ -71,12 +71,12 @@ typedef struct nook_ao_pass {
 
     /** The same numbers as in the frame block, for techniques that run on the CPU. */
     double r_max;
-    int falloff; /**< Index into the choices of ao.falloff: shaders/ao/falloff.glsl has the formulas. */
+    int falloff;   /**< Index into the choices of ao.falloff: shaders/ao/falloff.glsl has the formulas. */
+    uint32_t seed; /**< From the frame index. */
     double falloff_tau;
     /** View position of a pixel: (ndc * ray_scale + ray_offset, -1) * depth, with ndc = 2 (pixel + 0.5) / size - 1. */
     double ray_scale[2], ray_offset[2];
     nook_matrix view_from_world; /**< Rigid: for what stands still in the world while the view moves. */
-    uint32_t seed;               /**< From the frame index. */
     /** For work over a second: fraction in [0, 1]. Never NULL; called on the recording thread. */
     void (*progress)(void *user, double fraction);
     void *progress_user;

@@ -38,9 +38,10 @@ static bool same_triangle(const soup *a, size_t t_a, const soup *b, size_t t_b)
     const nook_alpha_part *part_a = nook_alpha_part_of(a->alphas, t_a), *part_b = nook_alpha_part_of(b->alphas, t_b);
     if (!part_a != !part_b)
         return false;
-    if (part_a && a->looks[part_a - a->alphas->parts] != b->looks[part_b - b->alphas->parts])
+    bool looked = part_a && a->alphas && b->alphas; /* a part is one of alphas */
+    if (looked && a->looks[part_a - a->alphas->parts] != b->looks[part_b - b->alphas->parts])
         return false;
-    bool same = true, textured = part_a && part_a->texels;
+    bool same = true, textured = looked && part_a->texels;
     for (size_t k = 0; k < 3 && same; k++)
         same = same_corner(a, a->triangles->indices[3 * t_a + k], b, b->triangles->indices[3 * t_b + k], textured);
     return same;

@@ -70,11 +70,25 @@ test_the_picture_gets_smaller_for_the_rate_that_is_wanted_and_fills_the_window()
     export -f drawn_with is_smaller is_whole
     rm -rf "$tmp/shots"
     printf 'frame_rate = 120\n' >"$tmp/cache/preferences.txt" # more than software draws of such a size
-    in_game 'wait_for 60 is_smaller' --size 640x360 --out "$tmp/shots"
+    in_game '
+        wait_for 60 is_smaller
+        press t; wait_for 30 title_has frozen
+        press m; sleep 1; is_smaller # its truth is of these pixels' --size 640x360 --out "$tmp/shots"
     [ "$(identify -format '%wx%h\n' "$tmp"/shots/*.png | sort -u)" = 640x360 ]
     rm -rf "$tmp/shots"
     printf 'frame_rate = 0\n' >"$tmp/cache/preferences.txt"
     in_game 'sleep 3; wait_for 30 is_whole; sleep 1; is_whole' --size 640x360 --out "$tmp/shots"
+    rm "$tmp/cache/preferences.txt"
+}
+
+test_a_whole_number_among_the_preferences_can_be_dragged() {
+    rm -f "$tmp/cache/preferences.txt"
+    in_game '
+        press Escape; wait_for 30 title_has paused
+        to() { xdotool mousemove --window "$window" "$1" 319; sleep 0.4; } # "frame rate"
+        to 180; to 190; xdotool mousedown 1; sleep 0.4; to 231; to 247; to 253; xdotool mouseup 1; sleep 1
+        not log_has "whole number"' --size 640x360
+    grep -Eq '^frame_rate = ([3-9][0-9]|1[0-1][0-9])$' "$tmp/cache/preferences.txt"
     rm "$tmp/cache/preferences.txt"
 }
 
