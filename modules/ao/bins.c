@@ -101,12 +101,25 @@ static ao_bin_rectangle rectangle_of(const ao_bin_view *view, const ao_gpu_occlu
     return r;
 }
 
+/** @return entries of all lists together, had they room */
+static uint64_t find_rectangles(ao_bins *bins, const ao_bin_view *view, const ao_gpu_occluder *occluders,
+                                uint32_t count)
+{
+    uint64_t entries = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        const ao_bin_rectangle r = bins->rectangles[i] = rectangle_of(view, &occluders[i]);
+        if (r.first[0] != NOWHERE)
+            entries += (uint64_t)(r.last[0] - r.first[0] + 1) * (uint64_t)(r.last[1] - r.first[1] + 1);
+    }
+    return entries;
+}
+
 /** Into the heads: how many occluders may reach each bin. */
-static void count_items(ao_bins *bins, const ao_bin_view *view, const ao_gpu_occluder *occluders, uint32_t count)
+static void count_items(ao_bins *bins, uint32_t count)
 {
     memset(bins->words, 0, (size_t)bins->across * bins->down * HEAD * sizeof *bins->words);
     for (uint32_t i = 0; i < count; i++) {
-        const ao_bin_rectangle r = bins->rectangles[i] = rectangle_of(view, &occluders[i]);
+        const ao_bin_rectangle r = bins->rectangles[i];
         for (uint32_t y = r.first[1]; r.first[0] != NOWHERE && y <= r.last[1]; y++) {
             for (uint32_t x = r.first[0]; x <= r.last[0]; x++)
                 bins->words[(y * bins->across + x) * HEAD + 1]++;
@@ -155,14 +168,18 @@ nook_result ao_bins_fill(nook_gpu *gpu, ao_bins *bins, const ao_bin_view *view, 
 {
     bins->across = bins->down = 0;
     bins->longest = count;
+    bins->entries = 0;
     if (count < bins->least)
+        return NOOK_OK;
+    bins->entries = find_rectangles(bins, view, occluders, count);
+    if (bins->entries > (uint64_t)AO_BINS_OVERFLOW * bins->item_max)
         return NOOK_OK;
     const uint32_t across = nook_groups(view->size[0], AO_BIN_SIZE), down = nook_groups(view->size[1], AO_BIN_SIZE);
     nook_result result = across * down > bins->bin_max ? make_room(gpu, bins, across * down) : NOOK_OK;
     if (result != NOOK_OK)
         return result;
     bins->across = across, bins->down = down;
-    count_items(bins, view, occluders, count);
+    count_items(bins, count);
     uint32_t used = place_lists(bins, count);
     fill_lists(bins, count);
     nook_buffer_update(gpu, bins->buffer, 0, bins->words, used * sizeof *bins->words);

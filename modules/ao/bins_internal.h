@@ -7,6 +7,10 @@
  * Balls are projected: no depth is known here, and none is needed but by the tiles. Bins only leave out what cannot change a pixel, so
  * that a picture has the same bits with them and without. Nothing grows from frame to frame: the room for lists follows from how many
  * occluders there may be, and a bin that finds none, or that would hold most of the occluders, has no list: its tiles test all.
+ *
+ * A ball around the eye or beside it may be seen in every bin, so that entries are occluders times bins at the worst. They are counted by the
+ * rectangles' areas before any is made: where over half of them would find no room, most of the picture would test all anyway, and the
+ * record has no bins. So the time that lists take is bounded by their room, that of a record by it and the occluders.
  */
 #pragma once
 #include "engine/gpu/gpu.h"
@@ -14,9 +18,10 @@
 struct ao_gpu_occluder;
 
 enum {
-    AO_BIN_SIZE = 32,  /**< Trace pixels: BIN_SIZE of shaders/ao/tile_list.glsl. */
-    AO_BIN_ITEMS = 16, /**< Room for this many entries of lists for each occluder that there may be. */
-    AO_BINS_LEAST = 65 /**< A tile tests 64 at once, one an invocation: no list can make that fewer. */
+    AO_BIN_SIZE = 32,     /**< Trace pixels: BIN_SIZE of shaders/ao/tile_list.glsl. */
+    AO_BIN_ITEMS = 16,    /**< Room for this many entries of lists for each occluder that there may be. */
+    AO_BINS_OVERFLOW = 2, /**< No bins when lists would hold more than so many times what there is room for. */
+    AO_BINS_LEAST = 65    /**< A tile tests 64 at once, one an invocation: no list can make that fewer. */
 };
 #define AO_BIN_OF_ALL UINT32_MAX /**< Instead of a bin's count: it has no list. */
 
@@ -40,7 +45,8 @@ typedef struct ao_bins {
     uint32_t bin_max, item_max;   /**< There is room for: bins, entries of all lists together. */
     uint32_t least;               /**< From this many occluders on there are bins: AO_BINS_LEAST; tests set it. */
     uint32_t longest;             /**< The most occluders that a tile of this record tests: of a bin's list, or all. */
-    uint32_t across, down; /**< Bins of this record's picture; 0: none are needed, all tiles test all occluders. */
+    uint64_t entries;             /**< Of this record's lists, had all of them room; 0: too few occluders to look. */
+    uint32_t across, down;        /**< Bins of this record's picture; 0: it has none, all tiles test all occluders. */
 } ao_bins;
 
 /** Room for AO_BIN_ITEMS entries for each of that many occluders. @return NOOK_E_MEMORY, NOOK_E_DEVICE */

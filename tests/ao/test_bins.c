@@ -103,10 +103,12 @@ static void compare(nook_fixture_view *view, const char *what)
     record(view, AO_BINS_LEAST, items, found);
     assert_true(count_bins_of_all(bins) < bins->across * bins->down / 2);
     expect_equal(found, wanted, what);
-    record(view, AO_BINS_LEAST, 200, found);
+    assert_true(bins->entries > 200);
+    record(view, AO_BINS_LEAST, (uint32_t)bins->entries / 2 + 1, found);
     assert_in_range(count_bins_of_all(bins), 1, bins->across * bins->down - 1);
     expect_equal(found, wanted, what);
     record(view, AO_BINS_LEAST, 0, found);
+    assert_int_equal(bins->across, 0);
     expect_equal(found, wanted, what);
     view->ao->bins.item_max = items;
 }
@@ -164,6 +166,28 @@ static void test_few_occluders_have_no_bins(void **state)
     view->occluder_count = all;
 }
 
+/** Each of them may be seen in every bin: lists would take occluders times bins. */
+static void test_occluders_all_around_the_eye_have_no_bins_and_the_same_picture(void **state)
+{
+    nook_fixture_view *view = *state;
+    static float wanted[PIXELS], found[PIXELS];
+    const ao_bins *bins = &view->ao->bins;
+    const uint32_t items = bins->item_max;
+    assert_int_equal(view->occluder_count, MANY);
+    ao_view_param(view, "ao.r_max", "6"); /* reaches the eye from everywhere */
+    record(view, UINT32_MAX, items, wanted);
+    record(view, AO_BINS_LEAST, MANY * AO_BIN_ITEMS / 2, found);
+    assert_true(bins->entries > (uint64_t)MANY * 16);
+    assert_int_equal(bins->across, 0);
+    assert_int_equal(bins->longest, MANY);
+    expect_equal(found, wanted, "around the eye");
+    record(view, AO_BINS_LEAST, items, found); /* the room of a default context has all of them */
+    assert_true(bins->across > 0);
+    expect_equal(found, wanted, "around the eye, with room");
+    ao_view_param(view, "ao.r_max", "0.2");
+    view->ao->bins.item_max = items;
+}
+
 /* ---- the lists themselves ---------------------------------------------------------------------------------------- */
 
 enum { BALLS = 200, POINTS = 4000 };
@@ -190,7 +214,10 @@ static bool lists(const ao_bins *bins, uint32_t bin, uint32_t occluder)
     return head[1] == AO_BIN_OF_ALL;
 }
 
-/** Every occluder in reach of a point is listed where the point is seen. @return how many were in reach */
+/** As high over it a ray of a point starts at the most, voxels: sqrt(3)/2 + 1 - threshold, of which the least is 0.01; and FILTER_PRECISION. */
+static const double SLAB = 0.8661 + 0.99 + 0.015;
+
+/** Every occluder in reach of a point, or of a ray's start over it, is listed where the point is seen. @return how many were in reach */
 static uint32_t check_point(const ao_bins *bins, const ao_bin_view *view, const ao_gpu_occluder *balls, uint32_t *seed)
 {
     double point[3], depth = pow(10.0, next_random(seed, -2, 2));
@@ -206,7 +233,7 @@ static uint32_t check_point(const ao_bins *bins, const ao_bin_view *view, const 
     for (uint32_t i = 0; i < BALLS; i++) {
         const float *c = balls[i].centre;
         double apart = hypot(hypot(point[0] - (double)c[0], point[1] - (double)c[1]), point[2] - (double)c[2]);
-        if (apart > (double)c[3] + view->r_max)
+        if (apart > (double)c[3] + view->r_max + SLAB * (double)balls[i].normal_from_view[0][0])
             continue;
         reached++;
         if (!lists(bins, bin[1] * bins->across + bin[0], i))
@@ -220,9 +247,10 @@ static void test_what_reaches_a_point_is_listed_where_the_point_is_seen(void **s
 {
     nook_fixture_view *view = *state;
     static ao_gpu_occluder balls[BALLS];
-    uint32_t seed = 3, reached = 0;
+    uint32_t seed = 3, reached = 0, made = 0, listed = 0;
     ao_bins bins;
     assert_int_equal(ao_bins_create(view->gpu, BALLS, &bins), NOOK_OK);
+    bins.item_max = BALLS * 13 * 8; /* room for the largest balls everywhere: made with the first picture's bins */
     for (int round = 0; round < 16; round++) {
         const uint32_t scale = 1u << round % 3;
         const ao_bin_view of = { .size = { nook_groups(401, scale), nook_groups(255, scale) },
@@ -235,10 +263,13 @@ static void test_what_reaches_a_point_is_listed_where_the_point_is_seen(void **s
             balls[i] = random_ball(&seed);
         assert_int_equal(ao_bins_fill(view->gpu, &bins, &of, balls, BALLS), NOOK_OK);
         assert_int_equal(bins.across, nook_groups(of.size[0], AO_BIN_SIZE));
+        made += bins.across * bins.down;
+        listed += bins.across * bins.down - count_bins_of_all(&bins);
         for (int point = 0; point < POINTS; point++)
             reached += check_point(&bins, &of, balls, &seed);
     }
     assert_true(reached > 1000);
+    assert_true(listed > made / 2);
     ao_bins_release(view->gpu, &bins);
 }
 
@@ -278,6 +309,7 @@ int main(void)
         cmocka_unit_test(test_a_picture_has_the_same_bits_with_bins_and_without),
         cmocka_unit_test(test_scales_reuse_parts_and_corners_have_the_same_bits_too),
         cmocka_unit_test(test_few_occluders_have_no_bins),
+        cmocka_unit_test(test_occluders_all_around_the_eye_have_no_bins_and_the_same_picture),
         cmocka_unit_test(test_what_reaches_a_point_is_listed_where_the_point_is_seen),
         cmocka_unit_test(test_lists_ascend_and_leave_out_what_is_elsewhere_or_behind),
     };
