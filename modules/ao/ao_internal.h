@@ -81,7 +81,7 @@ typedef struct ao_region {
 /** What live volumes are made with; all zero before there is one. */
 typedef struct ao_voxelizer {
     nook_slicemap slices[3]; /**< Along x, y, z. */
-    uint32_t vertex_array;
+    nook_slicer slicer;
 } ao_voxelizer;
 
 struct nook_ao {

@@ -25,8 +25,8 @@ static nook_result make_voxelizer(nook_ao *ao, uint32_t side)
     nook_result result = NOOK_OK;
     for (int axis = 0; axis < 3 && result == NOOK_OK; axis++)
         result = nook_slicemap_fit(&v->slices[axis], ao->gpu, side);
-    if (result == NOOK_OK && !v->vertex_array)
-        v->vertex_array = nook_slicing_vertex_array(ao->gpu);
+    if (result == NOOK_OK)
+        nook_slicer_fit(&v->slicer, ao->gpu);
     return result;
 }
 
@@ -35,9 +35,7 @@ void ao_voxelizer_release(nook_ao *ao)
     ao_voxelizer *v = &ao->voxelizer;
     for (int axis = 0; axis < 3; axis++)
         nook_slicemap_release(&v->slices[axis], ao->gpu);
-    if (v->vertex_array)
-        ao->gpu->gl->DeleteVertexArrays(1, &v->vertex_array);
-    *v = (ao_voxelizer){ .vertex_array = 0 };
+    nook_slicer_release(&v->slicer, ao->gpu);
 }
 
 nook_result nook_ao_add_live_volume(nook_ao *ao, const char *name, const uint32_t size[3], nook_ao_volume *out_volume)
@@ -112,7 +110,7 @@ static nook_result draw_slices(nook_ao *ao, const nook_volume_info *info, const 
                                   .uv_stride = mesh->vertex_stride };
     nook_slicing slicing;
     nook_result result = NOOK_OK;
-    nook_slicing_begin(ao->gpu, ao->voxelizer.vertex_array, &slicing);
+    nook_slicing_begin(ao->gpu, &ao->voxelizer.slicer, &slicing);
     for (int32_t axis = 0; axis < 3 && result == NOOK_OK; axis++) {
         result = nook_slicing_map(&slicing, &ao->voxelizer.slices[axis], axis);
         for (uint32_t i = 0; i < mesh->part_count && result == NOOK_OK; i++) {
@@ -133,8 +131,10 @@ static void merge_slices(nook_ao *ao, const atlas_entry *entry, nook_program pro
     const int32_t size[3] = { (int32_t)info->width, (int32_t)info->height, (int32_t)info->depth };
     const int32_t origin[3] = { (int32_t)entry->box.origin[0], (int32_t)entry->box.origin[1],
                                 (int32_t)entry->box.origin[2] };
-    for (uint32_t axis = 0; axis < 3; axis++)
+    for (uint32_t axis = 0; axis < 3; axis++) {
+        ao->gpu->gl->BindSampler(axis, 0); /* no whole numbers can be read through a host's that filters */
         nook_bind_texture(ao->gpu, axis, ao->voxelizer.slices[axis].bits);
+    }
     nook_bind_image(ao->gpu, 0, ao->atlases[NOOK_VOLUME_BINARY].texture, GL_WRITE_ONLY);
     nook_program_use(ao->gpu, program);
     nook_uniform_int(ao->gpu, LOCATION_ORIGIN, origin, 3);

@@ -181,8 +181,9 @@ typedef struct nook_ao_live_mesh {
  */
 nook_result nook_ao_add_live_volume(nook_ao *ao, const char *name, const uint32_t size[3], nook_ao_volume *out_volume);
 /**
- * Voxelises a mesh into a live volume, on the GPU, for the records that follow: three slicemaps, ORed. GL's framebuffer, viewport and
- * tests are left as they were. The voxels of a mesh that stands still stay as they are while its box moves.
+ * Voxelises a mesh into a live volume, on the GPU, for the records that follow: three slicemaps, ORed. GL's framebuffer, viewport,
+ * vertex array and tests are left as they were. It binds a program, textures of units 0 to 2 and, of masks, 5, image unit 0, and does not restore
+ * them; sampler objects of these texture units are unbound. Masks are read whatever their own filters. The voxels of a mesh that stands still stay as they are while its box moves.
  * @return NOOK_E_ARG a stale id, a voxel_size that is none; NOOK_E_MEMORY, NOOK_E_DEVICE
  */
 nook_result nook_ao_voxelize(nook_ao *ao, nook_ao_volume volume, const nook_ao_live_mesh *mesh);

@@ -2,7 +2,7 @@
 #include <assert.h>
 #include <stdio.h>
 
-enum { LOCATION_ROWS = 0 /* to 2 */, LOCATION_AXIS = 3, LOCATION_SIDE = 4, LOCATION_ALPHA = 5, UNIT_MASK = 5 };
+enum { LOCATION_ROWS = 0 /* to 2 */, LOCATION_AXIS = 3, LOCATION_SIDE = 4, LOCATION_ALPHA = 5 };
 enum { OPAQUE, MASKED, NEITHER };
 
 nook_result nook_slicemap_fit(nook_slicemap *map, nook_gpu *gpu, uint32_t side)
@@ -45,9 +45,8 @@ nook_result nook_slicemap_shader_version(const nook_slicemap *map, nook_gpu *gpu
     return result;
 }
 
-uint32_t nook_slicing_vertex_array(nook_gpu *gpu)
+static GLuint make_vertex_array(const nook_gl *gl)
 {
-    const nook_gl *gl = gpu->gl;
     GLuint name;
     gl->CreateVertexArrays(1, &name);
     gl->EnableVertexArrayAttrib(name, 0);
@@ -58,14 +57,41 @@ uint32_t nook_slicing_vertex_array(nook_gpu *gpu)
     return name;
 }
 
-void nook_slicing_begin(nook_gpu *gpu, uint32_t vertex_array, nook_slicing *out_slicing)
+static GLuint make_mask_sampler(const nook_gl *gl)
+{
+    GLuint name;
+    gl->CreateSamplers(1, &name);
+    gl->SamplerParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl->SamplerParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    return name;
+}
+
+void nook_slicer_fit(nook_slicer *slicer, nook_gpu *gpu)
+{
+    if (!slicer->vertex_array)
+        slicer->vertex_array = make_vertex_array(gpu->gl);
+    if (!slicer->mask_sampler)
+        slicer->mask_sampler = make_mask_sampler(gpu->gl);
+}
+
+void nook_slicer_release(nook_slicer *slicer, nook_gpu *gpu)
+{
+    if (slicer->vertex_array)
+        gpu->gl->DeleteVertexArrays(1, &slicer->vertex_array);
+    if (slicer->mask_sampler)
+        gpu->gl->DeleteSamplers(1, &slicer->mask_sampler);
+    *slicer = (nook_slicer){ 0 };
+}
+
+void nook_slicing_begin(nook_gpu *gpu, const nook_slicer *slicer, nook_slicing *out_slicing)
 {
     const nook_gl *gl = gpu->gl;
-    nook_slicing slicing = { .gpu = gpu, .vertex_array = vertex_array };
+    nook_slicing slicing = { .gpu = gpu, .slicer = *slicer };
     nook_draw_state_take(gpu, &slicing.host);
     gl->Enable(GL_COLOR_LOGIC_OP);
     gl->LogicOp(GL_OR);
-    gl->BindVertexArray(vertex_array);
+    gl->BindVertexArray(slicer->vertex_array);
+    gl->BindSampler(NOOK_SLICING_UNIT, slicer->mask_sampler);
     *out_slicing = slicing;
 }
 
@@ -89,10 +115,10 @@ nook_result nook_slicing_map(nook_slicing *slicing, const nook_slicemap *map, in
 void nook_slicing_mesh(nook_slicing *slicing, const nook_slice_mesh *mesh)
 {
     const nook_gl *gl = slicing->gpu->gl;
-    gl->VertexArrayVertexBuffer(slicing->vertex_array, 0, mesh->vertex_buffer, 0, (GLsizei)mesh->vertex_stride);
-    gl->VertexArrayElementBuffer(slicing->vertex_array, mesh->index_buffer);
+    gl->VertexArrayVertexBuffer(slicing->slicer.vertex_array, 0, mesh->vertex_buffer, 0, (GLsizei)mesh->vertex_stride);
+    gl->VertexArrayElementBuffer(slicing->slicer.vertex_array, mesh->index_buffer);
     if (mesh->uv_buffer)
-        gl->VertexArrayVertexBuffer(slicing->vertex_array, 1, mesh->uv_buffer, (GLintptr)mesh->uv_offset,
+        gl->VertexArrayVertexBuffer(slicing->slicer.vertex_array, 1, mesh->uv_buffer, (GLintptr)mesh->uv_offset,
                                     (GLsizei)mesh->uv_stride);
     slicing->mesh = *mesh;
     slicing->used = NEITHER;
@@ -113,11 +139,11 @@ void nook_slicing_mask(nook_slicing *slicing, const nook_slice_mask *mask)
     for (uint32_t row = 0; row < 3; row++)
         nook_uniform_float(gpu, LOCATION_ROWS + row, slicing->mesh.voxel_from_mesh[row], 4);
     if (mask) {
-        gpu->gl->EnableVertexArrayAttrib(slicing->vertex_array, 1);
+        gpu->gl->EnableVertexArrayAttrib(slicing->slicer.vertex_array, 1);
         nook_uniform_float(gpu, LOCATION_ALPHA, (const float[]){ mask->factor, mask->cutoff }, 2);
-        nook_bind_texture(gpu, UNIT_MASK, (nook_texture){ .id = mask->texture });
+        nook_bind_texture(gpu, NOOK_SLICING_UNIT, (nook_texture){ .id = mask->texture });
     } else {
-        gpu->gl->DisableVertexArrayAttrib(slicing->vertex_array, 1);
+        gpu->gl->DisableVertexArrayAttrib(slicing->slicer.vertex_array, 1);
     }
 }
 
@@ -130,5 +156,6 @@ void nook_slicing_draw(const nook_slicing *slicing, uint32_t first_index, uint32
 
 void nook_slicing_end(const nook_slicing *slicing)
 {
+    slicing->gpu->gl->BindSampler(NOOK_SLICING_UNIT, 0);
     nook_draw_state_give_back(slicing->gpu, &slicing->host);
 }

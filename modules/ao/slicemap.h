@@ -21,6 +21,7 @@ enum {
     NOOK_SLICEMAP_BITS = 128, /**< Layers of a texel: RGBA32UI. */
     NOOK_SLICEMAP_TEXELS = 4, /**< Texels of a column at the most: 512 layers. */
     NOOK_SLICEMAP_SIDE_MAX = NOOK_SLICEMAP_BITS * NOOK_SLICEMAP_TEXELS,
+    NOOK_SLICING_UNIT = 5, /**< Of textures: where masks are read. */
 };
 
 typedef struct nook_slicemap {
@@ -61,10 +62,17 @@ typedef struct nook_slice_mask {
     float factor, cutoff;
 } nook_slice_mask;
 
-/** GL's state while triangles are sliced; what a host had is put back at the end. */
+/** What slicing needs of GL, kept from one time to the next. All zero before nook_slicer_fit. */
+typedef struct nook_slicer {
+    uint32_t vertex_array;
+    uint32_t
+        mask_sampler; /**< Level 0 of a mask is there to be read whatever filter it has itself and levels it lacks. */
+} nook_slicer;
+
+/** GL's state while triangles are sliced; what a host had is put back at the end, but for NOOK_SLICING_UNIT. */
 typedef struct nook_slicing {
     nook_gpu *gpu;
-    uint32_t vertex_array;
+    nook_slicer slicer;
     nook_draw_state host;
     nook_program programs[2]; /**< Of what is opaque, of what is masked. */
     int32_t used;             /**< Which of them has all that mesh and map say. */
@@ -73,10 +81,10 @@ typedef struct nook_slicing {
     nook_slice_mesh mesh;
 } nook_slicing;
 
-/** A vertex array for nook_slicing_begin; the caller deletes it: DeleteVertexArrays. */
-uint32_t nook_slicing_vertex_array(nook_gpu *gpu);
-/** Takes GL over until nook_slicing_end: framebuffer, viewport, tests, logic op. */
-void nook_slicing_begin(nook_gpu *gpu, uint32_t vertex_array, nook_slicing *out_slicing);
+void nook_slicer_fit(nook_slicer *slicer, nook_gpu *gpu); /**< Makes what is not there. */
+void nook_slicer_release(nook_slicer *slicer, nook_gpu *gpu);
+/** Takes GL over until nook_slicing_end: framebuffer, viewport, tests, logic op, texture and sampler of NOOK_SLICING_UNIT. */
+void nook_slicing_begin(nook_gpu *gpu, const nook_slicer *slicer, nook_slicing *out_slicing);
 /**
  * Empties a map; draws go to it from now on.
  * @param axis  0, 1, 2: what it looks along. Its columns are (y, z), (x, z), (x, y) of the grid
@@ -89,6 +97,7 @@ void nook_slicing_mesh(nook_slicing *slicing, const nook_slice_mesh *mesh);
 void nook_slicing_mask(nook_slicing *slicing, const nook_slice_mask *mask);
 /** @param first_index, index_count  a multiple of 3 @param first_vertex  added to each index */
 void nook_slicing_draw(const nook_slicing *slicing, uint32_t first_index, uint32_t index_count, uint32_t first_vertex);
+/** Leaves no sampler in NOOK_SLICING_UNIT, and the last mask's texture. */
 void nook_slicing_end(const nook_slicing *slicing);
 
 #ifdef __cplusplus

@@ -11,10 +11,9 @@ void hao_voxels_release(hao_voxels *voxels, nook_gpu *gpu)
 {
     for (int axis = 0; axis < 3; axis++)
         nook_slicemap_release(&voxels->maps[axis], gpu);
-    if (voxels->vertex_array)
-        gpu->gl->DeleteVertexArrays(1, &voxels->vertex_array);
+    nook_slicer_release(&voxels->slicer, gpu);
     free(voxels->drawn);
-    *voxels = (hao_voxels){ .vertex_array = 0 };
+    *voxels = (hao_voxels){ .holds = false };
 }
 
 /* ---- is it what is wanted? ---- */
@@ -143,8 +142,8 @@ static nook_result make_room(hao_voxels *voxels, nook_gpu *gpu, const hao_source
     nook_result result = NOOK_OK;
     for (int axis = source->map_count == 1 ? ALONG_Z : 0; axis < 3 && result == NOOK_OK; axis++)
         result = nook_slicemap_fit(&voxels->maps[axis], gpu, source->resolution);
-    if (result == NOOK_OK && !voxels->vertex_array)
-        voxels->vertex_array = nook_slicing_vertex_array(gpu);
+    if (result == NOOK_OK)
+        nook_slicer_fit(&voxels->slicer, gpu);
     return result;
 }
 
@@ -152,7 +151,7 @@ static nook_result draw(const hao_voxels *voxels, const nook_ao_pass *pass, cons
 {
     nook_slicing slicing;
     nook_result result = NOOK_OK;
-    nook_slicing_begin(pass->gpu, voxels->vertex_array, &slicing);
+    nook_slicing_begin(pass->gpu, &voxels->slicer, &slicing);
     for (int axis = voxels->source.map_count == 1 ? ALONG_Z : 0; axis < 3 && result == NOOK_OK; axis++)
         result = draw_map(voxels, &slicing, axis, pass, meshes);
     nook_slicing_end(&slicing);

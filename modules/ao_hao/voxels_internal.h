@@ -22,7 +22,7 @@ typedef struct hao_drawn {
 /** All zero before the first update. */
 typedef struct hao_voxels {
     nook_slicemap maps[3]; /**< Along x, y, z; one slicemap: along z alone. */
-    uint32_t vertex_array;
+    nook_slicer slicer;
     hao_grid grid;
     bool holds; /**< The maps hold `source` and `drawn`. */
     hao_source source;

@@ -229,6 +229,17 @@ static int count_layer(fixture *f, uint32_t texture, float factor)
     return count;
 }
 
+static void show_sheet(fixture *f, const checked_sheet *sheet)
+{
+    nook_buffer_destroy(f->gpu, &f->vertices);
+    nook_buffer_destroy(f->gpu, &f->indices);
+    assert_int_equal(nook_buffer_create(f->gpu, sheet->vertices, sizeof sheet->vertices, &f->vertices), NOOK_OK);
+    assert_int_equal(nook_buffer_create(f->gpu, sheet->indices, sizeof sheet->indices, &f->indices), NOOK_OK);
+    f->mesh.vertex_buffer = f->vertices.id, f->mesh.index_buffer = f->indices.id;
+    f->mesh.vertex_stride = sizeof sheet->vertices[0];
+    f->mesh.uv_offset = 3 * sizeof(float);
+}
+
 static void test_masks_have_the_holes_that_the_bake_has(void **state)
 {
     nook_gpu *gpu = test_gpu_of(state);
@@ -239,13 +250,7 @@ static void test_masks_have_the_holes_that_the_bake_has(void **state)
     make_checked_sheet(&sheet);
     make_soup(&s, 1);
     fixture f = open_fixture(gpu, &s);
-    nook_buffer_destroy(gpu, &f.vertices);
-    nook_buffer_destroy(gpu, &f.indices);
-    assert_int_equal(nook_buffer_create(gpu, sheet.vertices, sizeof sheet.vertices, &f.vertices), NOOK_OK);
-    assert_int_equal(nook_buffer_create(gpu, sheet.indices, sizeof sheet.indices, &f.indices), NOOK_OK);
-    f.mesh.vertex_buffer = f.vertices.id, f.mesh.index_buffer = f.indices.id;
-    f.mesh.vertex_stride = sizeof sheet.vertices[0];
-    f.mesh.uv_offset = 3 * sizeof(float);
+    show_sheet(&f, &sheet);
     assert_int_equal(nook_texture_create_mipped(gpu, GL_SRGB8_ALPHA8, 2, 2, sheet.texels, &texture), NOOK_OK);
     const int all = count_layer(&f, 0, 1.0f), half = count_layer(&f, texture.id, 1.0f);
     static uint8_t voxels[GRID * GRID * GRID];
@@ -267,6 +272,46 @@ static void test_masks_have_the_holes_that_the_bake_has(void **state)
             assert_int_equal(voxels[(25 * GRID + y) * GRID + x] != 0, baked_at(&baked, x, y, 25));
     assert_int_equal(half, all / 2);
     nook_volume_free(&baked);
+    nook_texture_destroy(gpu, &texture);
+    close_fixture(&f);
+}
+
+/** Filtering, in all units that voxelising uses; level 0 of a mask alone is no whole texture through it, nor are layers' bits. */
+static void test_masks_have_their_holes_however_the_host_samples(void **state)
+{
+    nook_gpu *gpu = test_gpu_of(state);
+    const nook_gl *gl = gpu->gl;
+    static soup s;
+    checked_sheet sheet;
+    nook_texture texture;
+    GLuint sampler;
+    make_checked_sheet(&sheet);
+    make_soup(&s, 1);
+    fixture f = open_fixture(gpu, &s);
+    show_sheet(&f, &sheet);
+    assert_int_equal(nook_texture_create_2d(gpu, GL_RGBA8, 2, 2, GL_NEAREST, &texture), NOOK_OK);
+    gl->TextureSubImage2D(texture.id, 0, 0, 0, 2, 2, GL_RGBA, GL_UNSIGNED_BYTE, sheet.texels);
+    const int half = count_layer(&f, texture.id, 1.0f);
+    assert_int_equal(half, (RESOLUTION - 2) * (RESOLUTION - 2) / 2);
+    gl->CreateSamplers(1, &sampler);
+    gl->SamplerParameteri(sampler, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    for (GLuint unit = 0; unit < 8; unit++)
+        gl->BindSampler(unit, sampler);
+    assert_int_equal(count_layer(&f, texture.id, 1.0f), half);
+    const GLuint used[] = { 0, 1, 2, NOOK_SLICING_UNIT };
+    for (size_t i = 0; i < NOOK_COUNT(used); i++) {
+        GLint bound = -1;
+        gl->ActiveTexture(GL_TEXTURE0 + used[i]);
+        gl->GetIntegerv(GL_SAMPLER_BINDING, &bound);
+        assert_int_equal(bound, 0);
+    }
+    gl->ActiveTexture(GL_TEXTURE0);
+    for (GLuint unit = 0; unit < 8; unit++)
+        gl->BindSampler(unit, 0);
+    gl->TextureParameteri(texture.id, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    gl->TextureParameteri(texture.id, GL_TEXTURE_MAX_LEVEL, 1000);
+    assert_int_equal(count_layer(&f, texture.id, 1.0f), half);
+    gl->DeleteSamplers(1, &sampler);
     nook_texture_destroy(gpu, &texture);
     close_fixture(&f);
 }
@@ -443,6 +488,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_slicemaps_mark_what_the_bake_marks, test_gpu_setup, test_gpu_teardown),
         cmocka_unit_test_setup_teardown(test_masks_have_the_holes_that_the_bake_has, test_gpu_setup, test_gpu_teardown),
+        cmocka_unit_test_setup_teardown(test_masks_have_their_holes_however_the_host_samples, test_gpu_setup,
+                                        test_gpu_teardown),
         cmocka_unit_test_setup_teardown(test_a_volume_made_anew_forgets_what_was_in_it, test_gpu_setup,
                                         test_gpu_teardown),
         cmocka_unit_test_setup_teardown(test_what_is_made_of_the_atlas_learns_of_a_volume_made_anew, test_gpu_setup,
