@@ -149,6 +149,7 @@ typedef struct ao_work {
     uint32_t kinds;  /**< Of volumes: bits 1 << nook_volume_kind; of a volume of several kinds the first of them. */
     uint32_t scale;  /**< Of the trace: its exponent. */
     int32_t passes;  /**< After the trace, that read pixels around: ao_region_make. */
+    int binned;      /**< Not 0: the technique reads bins. */
     int counting;    /**< frame.counting of shaders/ao/counter.glsl. */
     int refining;    /**< ao_refining. */
     int supporting; /**< Not 0: filtered pixels of the trace that few samples are like trace more: shaders/ao/support.glsl. */

@@ -163,12 +163,17 @@ static void fill_lists(ao_bins *bins, uint32_t count)
     }
 }
 
-nook_result ao_bins_fill(nook_gpu *gpu, ao_bins *bins, const ao_bin_view *view, const ao_gpu_occluder *occluders,
-                         uint32_t count)
+void ao_bins_clear(ao_bins *bins, uint32_t count)
 {
     bins->across = bins->down = 0;
     bins->longest = count;
     bins->entries = 0;
+}
+
+nook_result ao_bins_fill(nook_gpu *gpu, ao_bins *bins, const ao_bin_view *view, const ao_gpu_occluder *occluders,
+                         uint32_t count)
+{
+    ao_bins_clear(bins, count);
     if (count < bins->least)
         return NOOK_OK;
     bins->entries = find_rectangles(bins, view, occluders, count);

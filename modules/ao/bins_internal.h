@@ -52,6 +52,7 @@ typedef struct ao_bins {
 /** Room for AO_BIN_ITEMS entries for each of that many occluders. @return NOOK_E_MEMORY, NOOK_E_DEVICE */
 nook_result ao_bins_create(nook_gpu *gpu, uint32_t occluder_max, ao_bins *out);
 void ao_bins_release(nook_gpu *gpu, ao_bins *bins); /**< Zero is allowed. */
+void ao_bins_clear(ao_bins *bins, uint32_t count);  /**< None for this record, of that many occluders. */
 /**
  * Makes the lists and uploads them. Room for bins grows with the picture and stays.
  * @param count  at most as many as there is room for @return NOOK_E_MEMORY, NOOK_E_DEVICE

@@ -144,7 +144,7 @@ static nook_result fill_bins(nook_ao *ao, const nook_ao_frame *frame)
     return ao_bins_fill(ao->gpu, &ao->bins, &view, ao->gpu_occluders, ao->statistics.occluders);
 }
 
-static nook_result upload_inputs(nook_ao *ao, const nook_ao_frame *frame, int counting)
+static nook_result upload_inputs(nook_ao *ao, const nook_ao_frame *frame, const ao_work *work)
 {
     static const ao_counts zero = { 0 };
     nook_result result = NOOK_OK;
@@ -154,10 +154,12 @@ static nook_result upload_inputs(nook_ao *ao, const nook_ao_frame *frame, int co
         result = brick_pool_flush(&ao->pool);
     if (result != NOOK_OK)
         return result;
-    result = fill_bins(ao, frame);
+    ao_bins_clear(&ao->bins, ao->statistics.occluders);
+    if (work->binned)
+        result = fill_bins(ao, frame);
     if (result != NOOK_OK)
         return result;
-    frame_block block = make_block(ao, frame, counting);
+    frame_block block = make_block(ao, frame, work->counting);
     nook_buffer_update(ao->gpu, ao->frame, 0, &block, sizeof block);
     nook_buffer_update(ao->gpu, ao->counter, 0, &zero, sizeof zero);
     if (ao->statistics.occluders)
@@ -277,7 +279,7 @@ nook_result ao_begin(nook_ao *ao, const nook_ao_frame *frame, const ao_work *wor
     if (result == NOOK_OK && (work->refining || work->supporting))
         result = ao_refine_fit(ao->gpu, &ao->refine, ao->width, ao->height, (double)ao->shared.refine_share);
     if (result == NOOK_OK)
-        result = upload_inputs(ao, frame, work->counting);
+        result = upload_inputs(ao, frame, work);
     if (result == NOOK_OK)
         result = ao_fill_inputs(ao, frame);
     if (result != NOOK_OK)
@@ -310,6 +312,7 @@ static ao_work work_of(const nook_ao *ao, const ao_slot *slot, const nook_ao_fra
                       .refining = stepped ? refining_of(ao, technique) : AO_REFINING_NOTHING,
                       .supporting =
                           stepped && technique->refines && ao->shared.filter == FILTER_TILE && ao->shared.support > 1,
+                      .binned = technique->reads_bins && technique->reads_bins(slot->params),
                       .counting = technique->exact ? 0 : counting /* truth reads nothing of the kind */ };
 }
 

@@ -95,7 +95,7 @@ typedef struct nook_ao_pass {
     nook_texture occluder_texture; /**< RGBA32F of a buffer: the occluders' rows. Binding 3. */
     nook_buffer occluders;         /**< That buffer. */
     uint32_t occluder_count;
-    /** NULL: too few to be sorted. Else which of them may reach which part of the picture, for programs with BINNED defined:
+    /** NULL: not asked for by reads_bins, or they would win nothing. Else which of them may reach which part of the picture, for programs with BINNED defined:
         shaders/ao/tile_list.glsl. Storage, binding 2. */
     const nook_buffer *bins;
     uint32_t occluders_tested; /**< By a tile at the most: of a bin's list, or all. */
@@ -127,6 +127,8 @@ typedef struct nook_ao_technique {
     const char *summary; /**< One line for the menu. */
     /** NOOK_AO_IN_VOLUMES: the kind of volume that it marches with these parameters, a nook_volume_kind. NULL: binary. */
     uint32_t (*volume_kind)(const void *params);
+    /** NOOK_AO_IN_VOLUMES: whether record reads pass->bins with these parameters; else none are made. NULL: never. */
+    uint32_t (*reads_bins)(const void *params);
     /** 1: with these parameters a pixel's visibility follows from its surface, the volumes within r_max and the seed, wherever the
         camera is; and record traces no more than pass->tiles where that is given. So it can be taken over from the frame before:
         ao.reuse. NULL: never. */

@@ -156,6 +156,13 @@ static uint32_t is_reusable(const void *params)
     return p->path != PATH_RASTER;
 }
 
+/** Boxes that are drawn find their pixels themselves. */
+static uint32_t reads_bins(const void *params)
+{
+    const volume_params *p = params;
+    return p->path != PATH_RASTER;
+}
+
 static volume_task make_task(const volume_params *p, const nook_ao_pass *pass)
 {
     uint32_t out = p->guard == GUARD_SEEN ? VOLUME_TURNS_OUT : 0; /* once for all rays, but they may be in parts */
@@ -243,6 +250,7 @@ const nook_ao_technique nook_ao_volume_technique = {
     .summary = "Rays marched through precomputed voxel volumes; sees what the camera does not",
     .inputs = NOOK_AO_IN_VOLUMES,
     .volume_kind = volume_kind,
+    .reads_bins = reads_bins,
     .refines = 1,
     .is_reusable = is_reusable,
     .params = param_table,

@@ -166,6 +166,23 @@ static void test_few_occluders_have_no_bins(void **state)
     view->occluder_count = all;
 }
 
+static void test_boxes_that_are_drawn_have_no_bins(void **state)
+{
+    nook_fixture_view *view = *state;
+    const uint32_t least = view->ao->bins.least;
+    view->ao->bins.least = 1;
+    ao_view_param(view, "volume.path", "raster");
+    ao_view_record(view, "volume");
+    assert_int_equal(view->ao->bins.across, 0);
+    assert_int_equal(view->ao->bins.longest, MANY);
+    ao_view_param(view, "volume.path", "compute");
+    ao_view_record(view, "volume");
+    assert_true(view->ao->bins.across > 0);
+    ao_view_record(view, "ssao");
+    assert_int_equal(view->ao->bins.across, 0);
+    view->ao->bins.least = least;
+}
+
 /** Each of them may be seen in every bin: lists would take occluders times bins. */
 static void test_occluders_all_around_the_eye_have_no_bins_and_the_same_picture(void **state)
 {
@@ -309,6 +326,7 @@ int main(void)
         cmocka_unit_test(test_a_picture_has_the_same_bits_with_bins_and_without),
         cmocka_unit_test(test_scales_reuse_parts_and_corners_have_the_same_bits_too),
         cmocka_unit_test(test_few_occluders_have_no_bins),
+        cmocka_unit_test(test_boxes_that_are_drawn_have_no_bins),
         cmocka_unit_test(test_occluders_all_around_the_eye_have_no_bins_and_the_same_picture),
         cmocka_unit_test(test_what_reaches_a_point_is_listed_where_the_point_is_seen),
         cmocka_unit_test(test_lists_ascend_and_leave_out_what_is_elsewhere_or_behind),
