@@ -12,7 +12,7 @@ enum {
 
 /** Heads of the buffers: those of shaders/ao/refine.glsl. */
 typedef struct candidates_head {
-    uint32_t groups[3], count;
+    uint32_t groups[3], count, lacking;
 } candidates_head;
 
 typedef struct listed_head {

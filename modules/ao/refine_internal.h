@@ -9,7 +9,7 @@
 #include "engine/gpu/gpu.h"
 
 typedef struct ao_refine {
-    nook_buffer candidates; /**< Groups x, y, z of a dispatch over them, how many, and the pixels. */
+    nook_buffer candidates; /**< Groups x, y, z of a dispatch over them, how many, what they lack, and the pixels. */
     nook_buffer listed;     /**< Groups, how many, how many at most, and a record each. */
     nook_texture traced;    /**< R32F, visibility of one record each, 64 in a row. */
     uint32_t pixels;        /**< Room for candidates; 0 before there is any. */

@@ -10,6 +10,7 @@ const uint GROUPS_MAX = 65535u; // of a dispatch along x, that every device take
 layout(std430, binding = 6) buffer Candidates {
     uint groups_x, groups_y, groups_z; // of a dispatch over them
     uint count;
+    uint lacking; // pixels that all of them lack together: support.glsl
     uint pixels[]; // x + 65536 y: room for all of the picture
 } candidates;
 
@@ -42,12 +43,11 @@ uint stride()
     return gl_NumWorkGroups.x * REFINE_GROUP;
 }
 
-// Of candidates that make up to `points` each. By a hash of the pixel, so that the order of the list does not decide. Four standard deviations
-// of their number are kept free: were there too many of them, the order would.
-bool is_chosen(ivec2 p, uint points)
+// Of candidates that make `wanted` points together, up to `most` each. By a hash of the pixel, so that the order of the list does not decide.
+// Four standard deviations of their number are kept free: were there too many of them, the order would.
+bool is_chosen(ivec2 p, uint wanted, uint most)
 {
-    uint wanted = candidates.count * points;
-    float room = float(listed.capacity), share = (room - 4.0 * sqrt(room * float(points))) / float(wanted);
+    float room = float(listed.capacity), share = (room - 4.0 * sqrt(room * float(most))) / float(wanted);
     return wanted <= listed.capacity || float(hash(pack_pixel(p)) >> 8) * (1.0 / 16777216.0) < share;
 }
 

@@ -24,7 +24,7 @@ void main()
 {
     for (uint i = gl_GlobalInvocationID.x; i < candidates.count; i += stride()) {
         ivec2 p = unpack_pixel(candidates.pixels[i]);
-        if (is_chosen(p, 1u))
+        if (is_chosen(p, candidates.count, 1u))
             list_pixel(p);
     }
 }

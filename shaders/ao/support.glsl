@@ -25,6 +25,8 @@ int unsupported_lacking(uint bits)
 void list_unsupported(ivec2 p, float support)
 {
     int lacking = min(int(float(frame.support) - min(support, 16.0) + 0.5), frame.support - 1);
-    if (lacking > 0)
-        candidates.pixels[reserve_candidates(1u)] = pack_unsupported(p, lacking);
+    if (lacking <= 0)
+        return;
+    atomicAdd(candidates.lacking, uint(lacking));
+    candidates.pixels[reserve_candidates(1u)] = pack_unsupported(p, lacking);
 }

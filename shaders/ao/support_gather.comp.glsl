@@ -32,7 +32,7 @@ void main()
     for (uint i = gl_GlobalInvocationID.x; i < candidates.count; i += stride()) {
         uint bits = candidates.pixels[i];
         ivec2 p = unsupported_pixel(bits);
-        if (is_chosen(p, uint(frame.support - 1)))
+        if (is_chosen(p, candidates.lacking, uint(frame.support - 1)))
             list_missing(p, unsupported_lacking(bits));
     }
 }

@@ -1,6 +1,8 @@
 /* ao.support: pixels of the trace that the filter finds few like them for. */
+#include "modules/ao/ao_internal.h"
 #include "tests/support/ao_view.h"
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include <setjmp.h>
@@ -142,6 +144,25 @@ static void test_supported_pictures_are_the_same_bit_for_bit_also_where_there_ar
     assert_memory_not_equal(first[0], first[1], sizeof off);
 }
 
+static void test_room_for_what_is_lacking_is_room_enough(void **state)
+{
+    float all[PIXELS], fitted[PIXELS];
+    uint32_t head[5];
+    char share[32];
+    nook_fixture_view *view = start(state, "half", "bilinear");
+    build_wall(view, 7);
+    ao_view_param(view, "ao.refine", "off");
+    ao_view_param(view, "ao.refine_share", "1");
+    record(view, "2", "8", all);
+    nook_buffer_read(view->gpu, view->ao->refine.candidates, 0, head, sizeof head);
+    assert_in_range(head[4], head[3], 6 * head[3]); /* most of them do not lack all 7 */
+    snprintf(share, sizeof share, "%.6f", (double)head[4] / PIXELS);
+    ao_view_param(view, "ao.refine_share", share);
+    record(view, "2", "8", fitted);
+    assert_true(view->ao->refine.capacity < 7 * head[3]);
+    assert_memory_equal(fitted, all, sizeof all);
+}
+
 static void test_support_of_a_part_is_bit_for_bit_that_of_the_whole_picture(void **state)
 {
     float whole[PIXELS], part[PIXELS];
@@ -206,6 +227,7 @@ int main(void)
         cmocka_unit_test(test_pixels_with_enough_like_them_stay_bit_for_bit),
         cmocka_unit_test(test_only_the_tile_filter_of_a_smaller_trace_has_support),
         cmocka_unit_test(test_supported_pictures_are_the_same_bit_for_bit_also_where_there_are_too_many),
+        cmocka_unit_test(test_room_for_what_is_lacking_is_room_enough),
         cmocka_unit_test(test_support_of_a_part_is_bit_for_bit_that_of_the_whole_picture),
         cmocka_unit_test(test_support_and_traced_refinement_share_their_lists),
         cmocka_unit_test(test_supported_pixels_where_nothing_occludes_are_open),
