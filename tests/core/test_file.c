@@ -120,21 +120,27 @@ static void test_file_write_replaces_an_older_file_and_leaves_nothing_beside_it(
     assert_int_equal(count_entries(folder), 1);
 }
 
+/* How files may grow, and what happens to those that write beyond. */
+typedef struct room {
+    struct rlimit limit;
+    void (*handler)(int);
+} room;
+
 /* In any file. @return how it was */
-static struct rlimit leave_room_for_1000_bytes(void)
+static room leave_room_for_1000_bytes(void)
 {
-    struct rlimit usual;
-    assert_int_equal(getrlimit(RLIMIT_FSIZE, &usual), 0);
-    const struct rlimit tight = { .rlim_cur = 1000, .rlim_max = usual.rlim_max };
-    signal(SIGXFSZ, SIG_IGN); /* then writing beyond the limit is an error, not a signal */
+    room usual;
+    assert_int_equal(getrlimit(RLIMIT_FSIZE, &usual.limit), 0);
+    const struct rlimit tight = { .rlim_cur = 1000, .rlim_max = usual.limit.rlim_max };
+    usual.handler = signal(SIGXFSZ, SIG_IGN); /* then writing beyond the limit is an error, not a signal */
     assert_int_equal(setrlimit(RLIMIT_FSIZE, &tight), 0);
     return usual;
 }
 
-static void give_room_back(const struct rlimit *usual)
+static void give_room_back(const room *usual)
 {
-    setrlimit(RLIMIT_FSIZE, usual);
-    signal(SIGXFSZ, SIG_DFL);
+    setrlimit(RLIMIT_FSIZE, &usual->limit);
+    signal(SIGXFSZ, usual->handler);
 }
 
 static void test_file_write_that_runs_out_of_room_keeps_the_old_file(void **state)
@@ -147,7 +153,7 @@ static void test_file_write_that_runs_out_of_room_keeps_the_old_file(void **stat
     assert_int_equal(nook_file_write(path, "old", 3), NOOK_OK);
 
     static const char big[65536];
-    struct rlimit usual = leave_room_for_1000_bytes();
+    room usual = leave_room_for_1000_bytes();
     nook_result result = nook_file_write(path, big, sizeof big);
     give_room_back(&usual);
 
@@ -190,7 +196,7 @@ static void test_a_text_that_breaks_off_is_in_no_file(void **state)
     assert_string_equal(logged.text, "these are not it");
     assert_content(path, "7 and 8\n");
 
-    struct rlimit usual = leave_room_for_1000_bytes();
+    room usual = leave_room_for_1000_bytes();
     nook_result result = nook_file_write_text(path, print_much, others);
     give_room_back(&usual);
     assert_int_equal(result, NOOK_E_IO);
