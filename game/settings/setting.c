@@ -302,7 +302,7 @@ double nook_setting_get(const nook_setting *setting, const nook_param *param)
     return param->initial;
 }
 
-/* Choices of modules/ao_volume/params.def. */
+/* Choices of modules/ao_volume/params.def; tests/settings/test_setting.c compares them with its table. */
 enum { COMBINE_MULTIPLY = 0, PATH_COMPUTE = 0 };
 
 bool nook_setting_values_multiply(double combine, double path)

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -196,6 +197,30 @@ static void test_wrong_values_are_refused(void **state)
     must_refuse("volume rays=4 rays=8", NOOK_E_ARG, "twice");
 }
 
+static double choice(const char *name, const char *text)
+{
+    const nook_ao_technique *volume = nook_technique_find("volume");
+    const nook_param *param = nook_param_find(volume->params, volume->param_count, name);
+    assert_non_null(param);
+    nook_param alone = *param;
+    int32_t value = -1;
+    alone.offset = 0;
+    assert_int_equal(nook_param_parse(&alone, "volume", &value, text), NOOK_OK);
+    return nook_param_get(&alone, &value);
+}
+
+/* All choices, by the names of the technique's table: one that moves there or comes to it is seen. */
+static void test_values_that_multiply_are_those_of_the_technique_s_table(void **state)
+{
+    (void)state;
+    const double multiply = choice("combine", "multiply"), exact = choice("combine", "union");
+    const double compute = choice("path", "compute"), raster = choice("path", "raster");
+    assert_true(nook_setting_values_multiply(multiply, compute));
+    assert_true(nook_setting_values_multiply(multiply, raster));
+    assert_true(nook_setting_values_multiply(exact, raster));
+    assert_false(nook_setting_values_multiply(exact, compute));
+}
+
 static void test_volumes_multiply_by_their_product_and_where_they_are_drawn(void **state)
 {
     (void)state;
@@ -300,6 +325,7 @@ int main(void)
         cmocka_unit_test(test_all_parameters_at_once_fit),
         cmocka_unit_test(test_misspelt_names_get_a_suggestion),
         cmocka_unit_test(test_wrong_values_are_refused),
+        cmocka_unit_test(test_values_that_multiply_are_those_of_the_technique_s_table),
         cmocka_unit_test(test_volumes_multiply_by_their_product_and_where_they_are_drawn),
         cmocka_unit_test(test_what_is_computed_is_no_part_of_a_setting),
         cmocka_unit_test(test_text_longer_than_a_setting_is_refused),
