@@ -19,9 +19,32 @@ typedef struct builder {
     size_t vertex_capacity, index_capacity, part_capacity;
 } builder;
 
-static bool is_blended(const nook_scene *scene, const nook_primitive *primitive)
+/* In the order in which a volume has its triangles: each kind holds the first ones. */
+typedef enum layer { LAYER_SOLID, LAYER_BLENDED, LAYER_CLEAR, LAYERS } layer;
+
+/* A scene, and the layer of each material. */
+typedef struct source {
+    const nook_scene *scene;
+    layer *layers;
+} source;
+
+static layer layer_of(const nook_scene *scene, const nook_material *material)
 {
-    return scene->materials[primitive->material].alpha_mode == NOOK_ALPHA_BLEND;
+    nook_alpha_part part;
+    if (!nook_material_alpha(scene, material, &part))
+        return LAYER_SOLID;
+    if (nook_alpha_most(&part) < NOOK_DISTANCE_LEAST_ALPHA)
+        return LAYER_CLEAR;
+    return part.masked ? LAYER_SOLID : LAYER_BLENDED;
+}
+
+/* @return false: no memory */
+static bool sort_materials(const nook_scene *scene, source *out)
+{
+    *out = (source){ scene, malloc((scene->material_count + (size_t)1) * sizeof *out->layers) };
+    for (uint32_t i = 0; out->layers && i < scene->material_count; i++)
+        out->layers[i] = layer_of(scene, &scene->materials[i]);
+    return out->layers != NULL;
 }
 
 static void count_mesh(const nook_scene *scene, const nook_mesh *mesh, builder *b)
@@ -66,11 +89,13 @@ static void append_part(const nook_scene *scene, const nook_material *material, 
     volume->parts[volume->part_count++] = part;
 }
 
-static void append_primitive(const nook_scene *scene, const nook_primitive *primitive, const nook_matrix *space,
+static void append_primitive(const source *from, const nook_primitive *primitive, const nook_matrix *space,
                              nook_scene_volume *volume)
 {
+    const nook_scene *scene = from->scene;
+    const layer of = from->layers[primitive->material];
     uint32_t base = volume->vertex_count + volume->blended_vertex_count;
-    bool blended = is_blended(scene, primitive);
+    bool blended = of != LAYER_SOLID;
     size_t *count = blended ? &volume->blended_index_count : &volume->index_count, before = *count;
     float *positions = volume->positions + (size_t)base * 3;
     for (uint32_t i = 0; i < primitive->vertex_count; i++) {
@@ -91,21 +116,25 @@ static void append_primitive(const nook_scene *scene, const nook_primitive *prim
         for (uint32_t k = 0; finite && k < 3; k++, ++*count)
             volume->indices[volume->index_count + volume->blended_index_count] = base + indices[i + k];
     }
+    if (of == LAYER_CLEAR) {
+        volume->clear_vertex_count += primitive->vertex_count;
+        volume->clear_index_count += *count - before;
+    }
     append_part(scene, &scene->materials[primitive->material], *count - before, volume);
 }
 
-/* Its blended primitives, or all others: those come last. Appends what of it came to `parts`, as one each, unless that is NULL. @return
+/* Its primitives of a layer: after all of the layers before. Appends what of it came to `parts`, as one each, unless that is NULL. @return
    how many */
-static uint32_t append_mesh(const nook_scene *scene, const nook_mesh *mesh, const nook_matrix *space, bool blended,
+static uint32_t append_mesh(const source *from, const nook_mesh *mesh, const nook_matrix *space, layer of,
                             nook_scene_volume *volume, nook_volumes_part *parts)
 {
     uint32_t count = 0;
     for (uint32_t i = 0; i < mesh->primitive_count; i++) {
-        const nook_primitive *primitive = &scene->primitives[mesh->first_primitive + i];
+        const nook_primitive *primitive = &from->scene->primitives[mesh->first_primitive + i];
         size_t first = volume->index_count;
-        if (is_blended(scene, primitive) != blended)
+        if (from->layers[primitive->material] != of)
             continue;
-        append_primitive(scene, primitive, space, volume);
+        append_primitive(from, primitive, space, volume);
         if (parts && volume->index_count > first)
             parts[count++] = (nook_volumes_part){ first, volume->index_count - first };
     }
@@ -254,14 +283,19 @@ static bool keep_volume(nook_scene_volumes *out)
         volume->blended_index_count += volume->index_count;
         volume->vertex_count = 0;
         volume->index_count = 0;
+        if (!has_area(volume, 0, volume->blended_index_count - volume->clear_index_count)) {
+            volume->clear_vertex_count = volume->blended_vertex_count;
+            volume->clear_index_count = volume->blended_index_count;
+        }
     }
     volume->longest = longest_side(volume);
     out->volume_count++;
     return true;
 }
 
-static nook_result collect_static(const nook_scene *scene, nook_scene_volumes *out)
+static nook_result collect_static(const source *from, nook_scene_volumes *out)
 {
+    const nook_scene *scene = from->scene;
     builder b = { .volume = &out->volumes[out->volume_count] };
     size_t primitives = 0;
     for (uint32_t i = 0; i < scene->node_count; i++) {
@@ -285,13 +319,13 @@ static nook_result collect_static(const nook_scene *scene, nook_scene_volumes *o
     for (int axis = 0; axis < 3; axis++)
         centre[axis] = scene->bounds_min[axis] * 0.5 + scene->bounds_max[axis] * 0.5;
     nook_matrix mesh_from_world = nook_matrix_translation(-centre[0], -centre[1], -centre[2]);
-    for (uint32_t i = 0; i < 2 * scene->node_count; i++) {
+    for (size_t i = 0; i < (size_t)LAYERS * scene->node_count; i++) {
         const nook_node *node = &scene->nodes[i % scene->node_count];
         if (!is_static(scene, node))
             continue;
         nook_matrix mesh_from_local = nook_matrix_multiply(&mesh_from_world, &node->world_from_local);
-        out->part_count += append_mesh(scene, &scene->meshes[node->mesh], &mesh_from_local, i >= scene->node_count,
-                                       b.volume, out->parts + out->part_count);
+        out->part_count += append_mesh(from, &scene->meshes[node->mesh], &mesh_from_local,
+                                       (layer)(i / scene->node_count), b.volume, out->parts + out->part_count);
     }
     nook_matrix world_from_mesh = nook_matrix_translation(centre[0], centre[1], centre[2]);
     if (b.volume->blended_index_count > 0)
@@ -301,9 +335,10 @@ static nook_result collect_static(const nook_scene *scene, nook_scene_volumes *o
     return NOOK_OK;
 }
 
-static nook_result collect_body(const nook_scene *scene, uint32_t node_index, uint32_t *volume_of_mesh,
+static nook_result collect_body(const source *from, uint32_t node_index, uint32_t *volume_of_mesh,
                                 nook_scene_volumes *out)
 {
+    const nook_scene *scene = from->scene;
     const nook_node *node = &scene->nodes[node_index];
     const nook_mesh *mesh = &scene->meshes[node->mesh];
     char name[NAME_CAPACITY];
@@ -316,16 +351,17 @@ static nook_result collect_body(const nook_scene *scene, uint32_t node_index, ui
         return result;
     }
     nook_matrix identity = nook_matrix_identity();
-    append_mesh(scene, mesh, &identity, false, b.volume, NULL);
-    append_mesh(scene, mesh, &identity, true, b.volume, NULL);
+    for (int i = 0; i < LAYERS; i++)
+        append_mesh(from, mesh, &identity, (layer)i, b.volume, NULL);
     if (keep_volume(out))
         volume_of_mesh[node->mesh] = out->volume_count - 1;
     return NOOK_OK;
 }
 
 /* volume_of_mesh: NOOK_NONE everywhere at first. */
-static nook_result collect_bodies(const nook_scene *scene, uint32_t *volume_of_mesh, nook_scene_volumes *out)
+static nook_result collect_bodies(const source *from, uint32_t *volume_of_mesh, nook_scene_volumes *out)
 {
+    const nook_scene *scene = from->scene;
     for (uint32_t i = 0; i < scene->node_count; i++) {
         const nook_node *node = &scene->nodes[i];
         if (!is_body(scene, node))
@@ -336,7 +372,7 @@ static nook_result collect_bodies(const nook_scene *scene, uint32_t *volume_of_m
             continue;
         }
         if (volume_of_mesh[node->mesh] == NOOK_NONE) {
-            nook_result result = collect_body(scene, i, volume_of_mesh, out);
+            nook_result result = collect_body(from, i, volume_of_mesh, out);
             if (result != NOOK_OK)
                 return result;
         }
@@ -369,15 +405,17 @@ static nook_result collect(const nook_scene *scene, nook_scene_volumes *out)
     out->occluders = calloc((size_t)scene->node_count + 1, sizeof *out->occluders);
     uint32_t *volume_of_mesh = malloc(((size_t)scene->mesh_count + 1) * sizeof *volume_of_mesh);
     nook_result result = NOOK_OK;
-    if (!out->volumes || !out->occluders || !volume_of_mesh)
+    source from;
+    if (!sort_materials(scene, &from) || !out->volumes || !out->occluders || !volume_of_mesh)
         result = nook_fail(NOOK_E_MEMORY, "%s: no memory for %u volumes", scene->path, scene->mesh_count);
     for (uint32_t i = 0; volume_of_mesh && i < scene->mesh_count; i++)
         volume_of_mesh[i] = NOOK_NONE;
     if (result == NOOK_OK)
-        result = collect_static(scene, out);
+        result = collect_static(&from, out);
     if (result == NOOK_OK)
-        result = collect_bodies(scene, volume_of_mesh, out);
+        result = collect_bodies(&from, volume_of_mesh, out);
     free(volume_of_mesh);
+    free(from.layers);
     return result;
 }
 

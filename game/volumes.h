@@ -47,6 +47,10 @@ typedef struct nook_scene_volume {
     /** Blended ones stand behind those, in both arrays. */
     uint32_t blended_vertex_count;
     size_t blended_index_count;
+    /** The last ones among those: of no material that is anywhere there in distances, masked away ones too. They would only make the box of
+        distances larger and its voxels coarser. */
+    uint32_t clear_vertex_count;
+    size_t clear_index_count;
     float *uvs;             /**< Two for each vertex, blended ones too. */
     nook_alpha_part *parts; /**< What of all this is not opaque; texels are the scene's. */
     uint32_t part_count;
@@ -148,13 +152,13 @@ nook_result nook_volumes_bake(const nook_scene *scene, const nook_volumes_desc *
  * @return NOOK_E_IO must_keep, and it is not
  */
 nook_result nook_volumes_check_kept(const nook_volumes_desc *desc, const nook_bake *bake, bool *warned);
-/** Whether blended triangles are in volumes of a kind; the others would make glass as dark as a wall. */
-bool nook_volumes_holds_blended(nook_volume_kind kind);
 /** What a kind is made of. @param out_triangles  of the volume; none: there is nothing to bake @param out_alphas  of them */
 void nook_volumes_select(const nook_scene_volume *volume, nook_volume_kind kind, nook_triangles *out_triangles,
                          nook_alphas *out_alphas);
 /** Of all its triangles, blended ones too. */
 size_t nook_scene_volume_index_count(const nook_scene_volume *volume);
+/** Of those that a volume of a kind is made of. */
+size_t nook_scene_volume_indices_of(const nook_scene_volume *volume, nook_volume_kind kind);
 /** The first kind that a volume was baked in. @return NULL for none */
 const nook_bake *nook_scene_volume_bake(const nook_scene_volume *volume);
 /** Its files of a kind. @param out_count  0: it is not to be streamed in this kind @return the finest */

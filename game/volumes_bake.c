@@ -21,9 +21,17 @@ nook_result nook_volumes_check_kept(const nook_volumes_desc *desc, const nook_ba
     return NOOK_OK;
 }
 
-bool nook_volumes_holds_blended(nook_volume_kind kind)
+/* How many of the blended indices, or of their vertices, are in volumes of a kind: the clear ones among them come last. */
+static size_t held(nook_volume_kind kind, size_t blended, size_t clear)
 {
-    return kind != NOOK_VOLUME_BINARY;
+    if (kind == NOOK_VOLUME_BINARY)
+        return 0;
+    return kind == NOOK_VOLUME_DISTANCE ? blended - clear : blended;
+}
+
+size_t nook_scene_volume_indices_of(const nook_scene_volume *volume, nook_volume_kind kind)
+{
+    return volume->index_count + held(kind, volume->blended_index_count, volume->clear_index_count);
 }
 
 void nook_volumes_select(const nook_scene_volume *volume, nook_volume_kind kind, nook_triangles *out_triangles,
@@ -32,15 +40,12 @@ void nook_volumes_select(const nook_scene_volume *volume, nook_volume_kind kind,
     *out_triangles = (nook_triangles){ .positions = volume->positions,
                                        .vertex_count = volume->vertex_count,
                                        .indices = volume->indices,
-                                       .index_count = volume->index_count };
-    if (nook_volumes_holds_blended(kind)) {
-        out_triangles->vertex_count += volume->blended_vertex_count;
-        out_triangles->index_count += volume->blended_index_count;
-    }
+                                       .index_count = nook_scene_volume_indices_of(volume, kind) };
+    out_triangles->vertex_count += (uint32_t)held(kind, volume->blended_vertex_count, volume->clear_vertex_count);
     *out_alphas = (nook_alphas){ volume->parts, volume->part_count, volume->uvs };
     while (out_alphas->part_count > 0 &&
            volume->parts[out_alphas->part_count - 1].first_index >= out_triangles->index_count)
-        out_alphas->part_count--; /* blended ones, where the kind does not hold them */
+        out_alphas->part_count--; /* those that the kind does not hold */
 }
 
 /* The volume of that name in the same place of the scene as it was. @return NULL: there was none */

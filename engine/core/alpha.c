@@ -52,6 +52,17 @@ double nook_alpha_of_texel(const nook_alpha_part *part, uint8_t texel)
     return fmin(fmax(alpha, 0.0), 1.0);
 }
 
+double nook_alpha_most(const nook_alpha_part *part)
+{
+    uint8_t most = part->texels ? 0 : UINT8_MAX; /* more of a texel is never less of the part */
+    for (uint32_t y = 0; part->texels && y < part->height && most < UINT8_MAX; y++)
+        for (uint32_t x = 0; x < part->width && most < UINT8_MAX; x++) {
+            const uint8_t texel = nook_alpha_texel(part, x, y);
+            most = texel > most ? texel : most;
+        }
+    return nook_alpha_of_texel(part, most);
+}
+
 double nook_alpha_at(const nook_alphas *alphas, const nook_alpha_part *part, const uint32_t corners[3],
                      const double weight[3])
 {

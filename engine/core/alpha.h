@@ -46,6 +46,9 @@ uint32_t nook_alpha_texel_at(double coordinate, uint32_t size);
 /** What of light a texel holds back, [0, 1]: 0 or 1 where it is masked. @param texel  as it is stored; UINT8_MAX without a texture */
 double nook_alpha_of_texel(const nook_alpha_part *part, uint8_t texel);
 
+/** The most of it that any point with finite coordinates has. Reads the texels until one is 255. */
+double nook_alpha_most(const nook_alpha_part *part);
+
 /**
  * The same at a point of a triangle.
  * @param corners  its vertices @param weight  of them, at the point

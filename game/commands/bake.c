@@ -53,7 +53,7 @@ static void tell_progress(void *user, const nook_scene_volume *done, uint32_t in
 static void print_row(const nook_scene_volume *v, const nook_bake *bake)
 {
     const nook_volume_info *info = &bake->info;
-    size_t triangles = v->index_count + (nook_volumes_holds_blended(info->kind) ? v->blended_index_count : 0);
+    size_t triangles = nook_scene_volume_indices_of(v, info->kind);
     char size[40], time[32];
     snprintf(size, sizeof size, "%ux%ux%u", info->width, info->height, info->depth);
     snprintf(time, sizeof time, "%.1f", bake->ms);

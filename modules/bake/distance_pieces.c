@@ -2,10 +2,9 @@
 #include "engine/core/vector.h"
 #include "modules/bake/alpha_area.h"
 #include "modules/bake/polygon_layers.h"
+#include "modules/bake/voxelize.h"
 #include <math.h>
 #include <stdlib.h>
-
-static const double least_alpha = 0.5 - 1e-6; /* a half, but for the rounding of areas */
 
 /* What lies in a voxel of the triangles of a part, in squares of steps. */
 typedef struct share {
@@ -116,7 +115,7 @@ static bool is_there(const cutter *c)
     const share key = { .voxel = number_of(c) };
     const share *found =
         c->shares.count ? bsearch(&key, c->shares.items, c->shares.count, sizeof key, compare_shares) : NULL;
-    return found && (double)found->there >= least_alpha * (double)found->area;
+    return found && (double)found->there >= NOOK_DISTANCE_LEAST_ALPHA * (double)found->area;
 }
 
 /* ---- Cutting ------------------------------------------------------------------------------------------------------ */
@@ -228,7 +227,8 @@ static void add_triangle(cutter *c, const nook_triangles *triangles, const nook_
         return;
     const bool cuts = c->part && c->part->texels && open_triangle(c, triangles, alphas, triangle, &snapped, &polygon);
     if (!cuts) {
-        if (!c->part || nook_alpha_at(alphas, c->part, triangles->indices + 3 * triangle, middle) >= least_alpha)
+        if (!c->part ||
+            nook_alpha_at(alphas, c->part, triangles->indices + 3 * triangle, middle) >= NOOK_DISTANCE_LEAST_ALPHA)
             add_whole(c, &snapped);
         return;
     }

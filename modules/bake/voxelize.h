@@ -25,6 +25,9 @@
 extern "C" {
 #endif
 
+/** Distances know nothing of what has less alpha than this, a half but for the rounding of areas. */
+#define NOOK_DISTANCE_LEAST_ALPHA (0.5 - 1e-6)
+
 /* What the other kinds hold, and how they are made: docs/surfel_bricks.md, docs/volume_kinds.md. Their grid lies where that of the
    voxels does. */
 

@@ -55,6 +55,21 @@ static void test_colours_have_their_alpha_last(void **state)
     assert_int_equal(nook_alpha_texel(&part, 1, 0), 102);
 }
 
+static void test_the_most_of_a_part_is_that_of_its_densest_texel(void **state)
+{
+    (void)state;
+    const uint8_t densities[] = { 0, 51, 204, 102 };
+    nook_alpha_part part = {
+        .index_count = 3, .alpha = 0.5f, .texels = densities, .width = 2, .height = 2, .texel_size = 1
+    };
+    assert_true(fabs(nook_alpha_most(&part) - 0.4) < 1e-6);
+    part.masked = true;
+    part.cutoff = 0.41f;
+    assert_true(nook_alpha_most(&part) == 0.0);
+    part.texels = NULL;
+    assert_true(nook_alpha_most(&part) == 1.0);
+}
+
 static void test_a_triangle_is_of_the_part_that_holds_it(void **state)
 {
     (void)state;
@@ -90,6 +105,7 @@ int main(void)
         cmocka_unit_test(test_the_nearest_texel_counts_and_textures_repeat),
         cmocka_unit_test(test_masks_are_there_from_their_cutoff_on),
         cmocka_unit_test(test_colours_have_their_alpha_last),
+        cmocka_unit_test(test_the_most_of_a_part_is_that_of_its_densest_texel),
         cmocka_unit_test(test_a_triangle_is_of_the_part_that_holds_it),
         cmocka_unit_test(test_parts_must_be_in_order_apart_and_within),
     };

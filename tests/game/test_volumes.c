@@ -238,6 +238,44 @@ static void test_densities_hold_blended_materials_with_their_alpha(void **state)
     free(s);
 }
 
+/* @return of the kind that was asked for; NULL: nothing was baked */
+static const nook_bake *bake_distances(const stage *s, nook_scene_volumes *out, uint32_t volume)
+{
+    const nook_volumes_desc desc = {
+        .resolution = 32, .r_max = 2.0, .threads = 1, .kinds = NOOK_VOLUME_BIT(NOOK_VOLUME_DISTANCE)
+    };
+    assert_int_equal(nook_volumes_bake(&s->scene, &desc, out), NOOK_OK);
+    return nook_scene_volume_bake(&out->volumes[volume]);
+}
+
+/* Of the two static cubes, 21 m apart, one is that material; the crates are blended and clear. */
+static void check_longest_distances(uint32_t material, double metres)
+{
+    stage *s = make_stage();
+    s->primitives[0].material = BLENDED;
+    s->primitives[1].material = material;
+    nook_scene_volumes v;
+    for (int clear = 0; clear < 2; clear++) {
+        s->materials[BLENDED].base_colour[3] = s->materials[MASKED].base_colour[3] = clear ? 0.49f : 0.5f;
+        s->materials[MASKED].alpha_cutoff = 0.5f;
+        const nook_bake *cubes = bake_distances(s, &v, 0);
+        assert_non_null(cubes);
+        assert_true(fabs(32.0 * cubes->info.voxel_size - (clear ? metres : 21.0)) < 1e-5);
+        assert_int_equal(nook_scene_volume_bake(&v.volumes[1]) == NULL, clear);
+        assert_int_equal(nook_scene_volume_indices_of(&v.volumes[0], NOOK_VOLUME_SURFEL), 72);
+        nook_volumes_free(&v);
+    }
+    free(s);
+}
+
+static void test_what_is_nowhere_there_makes_no_distances_coarser(void **state)
+{
+    (void)state;
+    check_longest_distances(BLENDED, 1.0);
+    check_longest_distances(MASKED, 1.0);
+    check_longest_distances(OPAQUE, 21.0);
+}
+
 static void test_scene_with_nothing_to_bake_has_no_volumes(void **state)
 {
     (void)state;
@@ -399,6 +437,7 @@ int main(void)
         cmocka_unit_test(test_blended_materials_are_left_out_and_masked_ones_are_in),
         cmocka_unit_test(test_an_edited_scene_is_baked_where_it_changed),
         cmocka_unit_test(test_densities_hold_blended_materials_with_their_alpha),
+        cmocka_unit_test(test_what_is_nowhere_there_makes_no_distances_coarser),
         cmocka_unit_test(test_scene_with_nothing_to_bake_has_no_volumes),
         cmocka_unit_test(test_corners_that_are_not_finite_are_left_out),
         cmocka_unit_test(test_body_without_extent_is_warned_about_and_left_out),
