@@ -43,8 +43,8 @@ typedef struct nook_scene_volume {
     float *positions; /**< xyz, metres, mesh space; packed. Finite. */
     uint32_t vertex_count;
     uint32_t *indices;  /**< First all but blended materials; the reference traces both. */
-    size_t index_count; /**< A multiple of 3; 0: a body of glass alone, which is there as densities and surfels only. */
-    /** Blended ones stand behind those, in both arrays. */
+    size_t index_count; /**< A multiple of 3; 0: a body of glass alone, which is no voxels. */
+    /** Blended ones stand behind those, in both arrays, and masked ones that are nowhere there. */
     uint32_t blended_vertex_count;
     size_t blended_index_count;
     /** The last ones among those: of no material that is anywhere there in distances, masked away ones too. They would only make the box of
