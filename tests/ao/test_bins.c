@@ -305,11 +305,11 @@ static void test_lists_ascend_and_leave_out_what_is_elsewhere_or_behind(void **s
     }
     assert_int_equal(ao_bins_fill(view->gpu, &bins, &of, balls, BALLS), NOOK_OK);
     for (uint32_t bin = 0; bin < 100; bin++) {
-        const uint32_t *head = &bins.words[2 * bin];
+        const uint32_t *head = bins.words + (size_t)2 * bin;
         assert_in_range(head[1], 0, 2);
         entries += head[1];
         for (uint32_t i = 0; i < head[1]; i++) {
-            const uint32_t *item = &bins.words[head[0] + i];
+            const uint32_t *item = bins.words + head[0] + i;
             assert_int_equal(*item & 1, 0);
             assert_int_equal(*item % 10, bin % 10);
             assert_int_equal(*item / 20, bin / 10);
