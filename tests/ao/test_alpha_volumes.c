@@ -135,13 +135,13 @@ static void test_distances_round_a_fine_grating_and_glass_to_a_wall_or_to_nothin
     const double wall = mean_of(fixture, "volume");
     assert_true(fabs(wall - opaque) < error);
     static const struct {
-        uint8_t texels[4];
         double transparency;
+        uint8_t texels[4];
         bool there;
-    } cases[] = { { { 0, 255, 255, 255 }, 0.0, true },
-                  { { 0, 255, 0, 0 }, 0.0, false },
-                  { { 0 }, 0.4, true },
-                  { { 0 }, 0.6, false } };
+    } cases[] = { { 0.0, { 0, 255, 255, 255 }, true },
+                  { 0.0, { 0, 255, 0, 0 }, false },
+                  { 0.4, { 0 }, true },
+                  { 0.6, { 0 }, false } };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         checker c;
         make_checker(&c, 64);
