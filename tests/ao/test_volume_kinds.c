@@ -153,7 +153,7 @@ static void test_without_lift_floors_of_distances_darken_themselves(void **state
 /** @param value  with which the constant does nothing */
 static void compare_rough_floor(void **state, const char *kind, const char *name, const char *value)
 {
-    ao_rough_floor got = ao_fixture_measure_rough_floor(prepare(state, kind, "0.6"), name, value);
+    ao_rough_floor got = ao_fixture_measure_rough_floor(prepare(state, kind, "0.6"), 3, name, value);
     assert_true(got.without < got.with - 0.02);
     assert_true(fabs(got.with - got.truth) < fabs(got.without - got.truth));
 }

@@ -76,7 +76,7 @@ void ao_fixture_normal(int k, double out_normal[3])
 
 /* ---- A rough floor ----------------------------------------------------------------------------------------------- */
 
-enum { CELLS = 96, PIXELS = 48 }; /* of the rough floor: along a side, and of its picture */
+enum { VOXELS = 32, PIXELS = 48 }; /* of the rough floor: along a side, and of its picture */
 
 static double rough_height(int x, int y)
 {
@@ -86,12 +86,13 @@ static double rough_height(int x, int y)
 }
 
 /* Seen from above. */
-static void draw_rough_floor(nook_fixture_view *view)
+static void draw_rough_floor(nook_fixture_view *view, int bumps)
 {
-    const double side = 2.0, voxel = side / 32, cell = side / CELLS, high = 0.5 * voxel;
+    const int cells = bumps * VOXELS;
+    const double side = 2.0, voxel = side / VOXELS, cell = side / cells, high = 0.5 * voxel;
     nook_fixture_mesh mesh = { 0 };
-    for (int y = 0; y < CELLS; y++) {
-        for (int x = 0; x < CELLS; x++) {
+    for (int y = 0; y < cells; y++) {
+        for (int x = 0; x < cells; x++) {
             double p[4][3];
             for (int k = 0; k < 4; k++) {
                 int column = x + (k & 1), row = y + (k >> 1);
@@ -103,7 +104,7 @@ static void draw_rough_floor(nook_fixture_view *view)
         }
     }
     ao_view_resize(view, PIXELS, PIXELS);
-    ao_view_add(view, &mesh, 32);
+    ao_view_add(view, &mesh, VOXELS);
     view->view_from_world = nook_matrix_translation(0, 0, -1.5);
     view->clip_from_view = nook_matrix_perspective_reversed(0.9, 1.0, 0.1);
     nook_fixture_view_clear(view);
@@ -117,12 +118,12 @@ static double mean_visibility(nook_fixture_view *view, const char *technique)
     return 1.0 - nook_fixture_summarize(view, 0, 0, PIXELS, PIXELS).mean;
 }
 
-ao_rough_floor ao_fixture_measure_rough_floor(ao_fixture *fixture, const char *constant, const char *value)
+ao_rough_floor ao_fixture_measure_rough_floor(ao_fixture *fixture, int bumps, const char *constant, const char *value)
 {
     ao_rough_floor got;
     ao_fixture_param(fixture, "volume.rays", "16");
     ao_fixture_param(fixture, "reference.rays", "64");
-    draw_rough_floor(fixture->view);
+    draw_rough_floor(fixture->view, bumps);
     got.truth = mean_visibility(fixture->view, "reference");
     got.with = mean_visibility(fixture->view, "volume");
     ao_fixture_param(fixture, constant, value);

@@ -31,10 +31,10 @@ enum { AO_FIXTURE_NORMALS = 20 };
 /** Unit normal k of AO_FIXTURE_NORMALS: the axes' neighbourhood, edges, corners and slight tilts. */
 void ao_fixture_normal(int k, double out_normal[3]);
 
-/** What a rough floor reads: bumps of half a voxel, a third of a voxel apart, on which rays may meet what they start from. */
+/** What a rough floor reads: bumps of half a voxel, on which rays may meet what they start from. */
 typedef struct ao_rough_floor {
     double truth;         /**< Visibility by rays against its triangles. */
     double with, without; /**< By `volume` as it is, and with a constant that does nothing. */
 } ao_rough_floor;
-/** Adds and draws it. @param constant  of `volume` @param value  with which that does nothing */
-ao_rough_floor ao_fixture_measure_rough_floor(ao_fixture *fixture, const char *constant, const char *value);
+/** Adds and draws it. @param bumps  along a voxel @param constant  of `volume` @param value  with which that does nothing */
+ao_rough_floor ao_fixture_measure_rough_floor(ao_fixture *fixture, int bumps, const char *constant, const char *value);
