@@ -33,6 +33,7 @@ typedef struct frame_times {
     double *ms;
     size_t count, most;
     size_t sized[NOOK_PICTURE_FIT_STEPS]; /* of the count, in each size of the picture */
+    uint32_t changed;                     /* of size, before the first of them */
     double used;                          /* sum over them: of what volumes may take, the part that held some */
     double waiting;                       /* the same: of the bytes that were wanted, the part that was not there */
 } frame_times;
@@ -102,6 +103,8 @@ static nook_result time_frames(nook_play_window *window, const play_options *opt
         double start = clock();
         result = nook_play_window_frame(window, &goes_on);
         nook_gpu_finish(window->stage.gpu);
+        if (i < 0)
+            out->changed = window->picture_fit.changes;
         if (result != NOOK_OK || i < 0)
             continue;
         out->ms[out->count++] = clock() - start;
@@ -153,7 +156,7 @@ static void print_sizes(const nook_play_window *window, const frame_times *times
     for (uint32_t i = 0; i < NOOK_PICTURE_FIT_STEPS; i++)
         printf(" %.1f %.1f %%%s", nook_picture_fit_scale(&(nook_picture_fit){ .step = i }),
                100.0 * (double)times->sized[i] / (double)times->count, i + 1 < NOOK_PICTURE_FIT_STEPS ? "," : "");
-    printf("; %u changes\n", fit->changes);
+    printf("; %u changes\n", fit->changes - times->changed);
 }
 
 static void print_stream(const nook_stream *stream, const frame_times *times)

@@ -5,7 +5,7 @@
 
 enum {
     SETTLE = 4,       /* frames of a new size that tell nothing */
-    SLOW = 3,         /* of the recent ones: an eighth; fewer are chance */
+    SLOW = 3,         /* of the recent ones; fewer are chance */
     CALM_FRAMES = 40, /* two seconds, at 20 frames a second */
     DOUBTS_MOST = 4,  /* 16 times that */
     SOON_FRAMES = 100 /* a size that lasted longer was no mistake */

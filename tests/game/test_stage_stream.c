@@ -220,18 +220,33 @@ static void set_budget(fixture *self, double bytes)
     nook_stream_set_params(self->stage.stream, &params);
 }
 
+static nook_stream_status settled_with(fixture *self, double bytes)
+{
+    picture seen;
+    nook_stream_status status;
+    set_budget(self, bytes);
+    settle(self, seen);
+    nook_stream_get_status(self->stage.stream, &status);
+    return status;
+}
+
+/* With a field of so many samples along x, and room for all. @return bytes of all */
+static uint64_t open_with_field(fixture *self, int width)
+{
+    add_field(self);
+    write_field(self, width);
+    self->kind = "density";
+    open_stage(self, 64.0);
+    return settled_with(self, 64.0 * 1024.0 * 1024.0).memory;
+}
+
 static void test_a_scalar_field_stays_whatever_the_budget_leaves_of_volumes(void **state)
 {
     fixture *self = *state;
     picture seen;
     nook_scene_reload *reload;
     nook_stream_status status;
-    add_field(self);
-    self->kind = "density";
-    open_stage(self, 64.0);
-    settle(self, seen);
-    nook_stream_get_status(self->stage.stream, &status);
-    uint64_t bytes = status.memory;
+    const uint64_t bytes = open_with_field(self, FIELD_SIDE);
     assert_true(field_is_there(self));
     for (int part = 2; part <= 3; part++) {
         set_budget(self, (double)bytes / part);
@@ -251,24 +266,10 @@ static void test_a_scalar_field_stays_whatever_the_budget_leaves_of_volumes(void
     nook_scene_reload_destroy(reload);
 }
 
-static nook_stream_status settled_with(fixture *self, double bytes)
-{
-    picture seen;
-    nook_stream_status status;
-    set_budget(self, bytes);
-    settle(self, seen);
-    nook_stream_get_status(self->stage.stream, &status);
-    return status;
-}
-
 static void test_what_a_scalar_field_takes_is_no_room_for_what_comes_and_goes(void **state)
 {
     fixture *self = *state;
-    add_field(self);
-    write_field(self, 5 * FIELD_SIDE); /* longer than most rooms would be without it */
-    self->kind = "density";
-    open_stage(self, 64.0);
-    const uint64_t all = settled_with(self, 64.0 * 1024.0 * 1024.0).memory;
+    const uint64_t all = open_with_field(self, 5 * FIELD_SIDE); /* longer than most rooms would be without it */
     const double field = (double)nook_ao_kept_bytes(self->stage.ao, NOOK_VOLUME_DENSITY);
     assert_true(field == (5 * FIELD_SIDE + 2) * (FIELD_SIDE + 2) * (FIELD_SIDE + 2));
     for (int i = 1; i <= 40; i++) { /* of any shape: it holds the field, and no more than it may */
@@ -286,10 +287,7 @@ static void test_a_budget_below_a_scalar_field_is_one_line_that_says_what_is_nee
     fixture *self = *state;
     picture seen;
     double stays = 0.0, needed = 0.0;
-    add_field(self);
-    self->kind = "density";
-    open_stage(self, 64.0);
-    settle(self, seen);
+    open_with_field(self, FIELD_SIDE);
     int before = self->log.count;
     nook_stream_status status = settled_with(self, 1000.0);
     for (int frame = 0; frame < 5; frame++)
@@ -314,10 +312,7 @@ static void test_a_scalar_field_that_is_saved_larger_leaves_what_comes_and_goes_
     picture seen;
     nook_scene_reload *reload;
     nook_stream_status status;
-    add_field(self);
-    self->kind = "density";
-    open_stage(self, 64.0);
-    const uint64_t all = settled_with(self, 64.0 * 1024.0 * 1024.0).memory;
+    const uint64_t all = open_with_field(self, FIELD_SIDE);
     const double budget = (double)all / 2.0;
     assert_true(settled_with(self, budget).resident > 0);
     assert_int_equal(nook_scene_reload_create(&self->stage, NULL, &reload), NOOK_OK);
