@@ -154,6 +154,12 @@ typedef struct nook_input {
     bool close_requested;
 } nook_input;
 
+/** Held now, or for a moment since the last poll: as Shift is when Shift and another key were tapped in a slow frame. */
+static inline bool nook_input_held(const nook_input *input, nook_key key)
+{
+    return input->down[key] || input->pressed[key];
+}
+
 /**
  * Makes a context current on this thread.
  * @return NOOK_E_DEVICE no such backend here or no OpenGL 4.5 (the line says what to install or set); *out_context NULL then

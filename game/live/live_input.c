@@ -71,7 +71,7 @@ static void change_views(nook_live *live, nook_input *rest, bool back)
 
 static void undo_and_redo(nook_live *live, nook_input *rest)
 {
-    if (!rest->down[NOOK_KEY_CONTROL])
+    if (!nook_input_held(rest, NOOK_KEY_CONTROL))
         return;
     uint32_t active = live->views.active;
     bool done = (take(rest, NOOK_KEY_Z) && nook_live_history_undo(&live->history, &live->views)) ||
@@ -82,7 +82,7 @@ static void undo_and_redo(nook_live *live, nook_input *rest)
 
 static void use_keys(nook_live *live, nook_input *rest)
 {
-    bool back = rest->down[NOOK_KEY_SHIFT];
+    bool back = nook_input_held(rest, NOOK_KEY_SHIFT);
     undo_and_redo(live, rest);
     choose_by_number(live, rest);
     change_views(live, rest, back);

@@ -98,7 +98,7 @@ static void draw_help(const nook_live *live, nook_overlay *overlay)
 static void read_keys(viewer *v, const nook_input *input)
 {
     if (input->pressed[NOOK_KEY_V] || input->pressed[NOOK_KEY_F])
-        step_buffer(v, input->down[NOOK_KEY_SHIFT]);
+        step_buffer(v, nook_input_held(input, NOOK_KEY_SHIFT));
     tell_technique(v);
 }
 

@@ -96,6 +96,9 @@ static void test_every_mode_draws_something_of_its_own(void **state)
     live_room_press(room, NOOK_KEY_M);
     room->input.down[NOOK_KEY_SHIFT] = false;
     assert_int_equal(views->views[0].mode, nook_live_mode_count() - 1);
+    room->input.pressed[NOOK_KEY_SHIFT] = true; /* tapped with it, and let go before the frame */
+    live_room_press(room, NOOK_KEY_M);
+    assert_int_equal(views->views[0].mode, nook_live_mode_count() - 2);
 }
 
 static void test_stage_may_change_its_size(void **state)
