@@ -29,6 +29,10 @@ static nook_result load_files(loading *l, const nook_scene_options *options)
         if (result != NOOK_OK)
             return result;
         l->parts[l->part_count++] = (nook_scene_part){ scene, !*file->name };
+        if (*file->name && scene->density_count)
+            nook_log_warning("%s: the scalar field of %s is left out: libraries give what nodes draw; name the file as "
+                             "scene = instead",
+                             file->path, scene->densities[0].name);
     }
     return NOOK_OK;
 }

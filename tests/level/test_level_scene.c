@@ -155,6 +155,29 @@ static void test_a_file_that_is_missing_fails_the_level(void **state)
     nook_level_free(level);
 }
 
+static void test_a_field_in_a_library_is_left_out_with_a_word(void **state)
+{
+    (void)state;
+    static const char field[] = "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 2 2 2\nencoding: raw\n\n\1\2\3\4\5\6\7";
+    char path[4096];
+    nook_scene *scene;
+    nook_log_capture log;
+    nook_scratch_path(path, sizeof path, "cloud.nrrd");
+    assert_int_equal(nook_file_write(path, field, sizeof field), NOOK_OK);
+    nook_level *level = read_level("");
+    play_room_write_scene("parts.glb", ", { 'name': 'cloud', 'extras': { 'nook_density': { 'file': 'cloud.nrrd', "
+                                       "'window': [ 0, 8 ], 'length': 1 } } }");
+    nook_log_capture_begin(&log);
+    nook_result result = nook_level_scene_load(level, NULL, &scene);
+    nook_log_capture_end();
+    assert_int_equal(result, NOOK_OK);
+    assert_int_equal(scene->density_count, 0);
+    assert_int_equal(log.count, 1);
+    assert_non_null(strstr(log.text, "parts.glb: the scalar field of cloud is left out"));
+    nook_scene_destroy(scene);
+    nook_level_free(level);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -165,6 +188,7 @@ int main(void)
         cmocka_unit_test(test_nodes_that_no_file_has_are_named_with_what_is_near),
         cmocka_unit_test(test_nodes_that_cannot_be_one_body_are_refused),
         cmocka_unit_test(test_a_file_that_is_missing_fails_the_level),
+        cmocka_unit_test(test_a_field_in_a_library_is_left_out_with_a_word),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
