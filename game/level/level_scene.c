@@ -30,8 +30,8 @@ static nook_result load_files(loading *l, const nook_scene_options *options)
             return result;
         l->parts[l->part_count++] = (nook_scene_part){ scene, !*file->name };
         if (*file->name && scene->density_count)
-            nook_log_warning("%s: the scalar field of %s is left out: libraries give what nodes draw; name the file as "
-                             "scene = instead",
+            nook_log_warning("%s: the scalar field of %s is left out: libraries give what nodes draw; put it into the "
+                             "scene of the level",
                              file->path, scene->densities[0].name);
     }
     return NOOK_OK;

@@ -23,11 +23,17 @@ void nook_play_unwatch(nook_play_window *w)
     w->shaders = NULL;
 }
 
+/* Where nothing is planned, how does not matter. */
+static bool is_planned_alike(const nook_plan_params *a, const nook_plan_params *b)
+{
+    return a->mode == b->mode && (a->mode == NOOK_PLAN_OFF || memcmp(a, b, sizeof *a) == 0);
+}
+
 /* The active view shows the setting; reach and falloff are of all views. Volumes keep their resolution until the next start, and are
    baked, planned or live as they were. */
 static void use_settings(nook_play_window *w, const nook_settings_file *file)
 {
-    if (file->live != w->stage.live_scene || memcmp(&file->plan, &w->stage.plan, sizeof file->plan) != 0)
+    if (file->live != w->stage.live_scene || !is_planned_alike(&file->plan, &w->stage.plan))
         nook_log_warning("play: %s: plan and volumes are taken over with the next start", w->settings_path);
     nook_live_views *views = nook_live_state(w->live);
     char text[NOOK_SETTING_TEXT_MAX] = "";
