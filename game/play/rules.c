@@ -1,5 +1,6 @@
 /* What waits for what, and how a try ends. */
 #include "engine/core/log.h"
+#include "engine/core/suggestion.h"
 #include "game/play/session_internal.h"
 #include <math.h>
 #include <stdarg.h>
@@ -24,6 +25,23 @@ static uint32_t index_of(const nook_level *level, const char *name)
     return entity ? (uint32_t)(entity - level->entities) : NOOK_NONE;
 }
 
+/* A plate that waits for what is not there never goes down. */
+static nook_result check_accepted(const nook_session *s, const nook_level_entity *plate)
+{
+    nook_suggestion near = nook_suggestion_for(plate->accepts);
+    for (uint32_t i = 0; i < s->thing_count; i++) {
+        const char *name = session_thing_name(s, i);
+        if (s->things[i].motion != NOOK_BODY_DYNAMIC)
+            continue;
+        if (nook_level_name_matches(plate->accepts, name))
+            return NOOK_OK;
+        nook_suggestion_offer(&near, name);
+    }
+    return nook_fail(NOOK_E_NOT_FOUND, "%s:%u: %s accepts %s, and no body has that name%s%s%s", s->desc.level->path,
+                     plate->line, plate->name, plate->accepts, near.nearest ? "; did you mean " : "",
+                     near.nearest ? near.nearest : "", near.nearest ? "?" : "");
+}
+
 static nook_result make_rule(nook_session *s, uint32_t index)
 {
     const nook_level *level = s->desc.level;
@@ -41,7 +59,7 @@ static nook_result make_rule(nook_session *s, uint32_t index)
             return nook_fail(NOOK_E_NOT_FOUND, "%s:%u: %s needs %s, which is not there", level->path,
                              entity->needs_line, entity->name, entity->needs[i]);
     }
-    return NOOK_OK;
+    return *entity->accepts ? check_accepted(s, entity) : NOOK_OK;
 }
 
 nook_result session_make_rules(nook_session *s)

@@ -225,4 +225,15 @@ test_a_level_that_is_wrong_is_not_played() {
     [ "$(wc -l <<<"$said")" -eq 1 ]
 }
 
+test_a_plate_that_waits_for_what_is_not_there_is_refused() {
+    local said
+    printf 'scene = %s/tests/game/data/crate.gltf\nseconds = 1\n[body crate]\n[plate floor]\nweight = 5\naccepts = craet\n' \
+        "$PWD" >"$tmp/plate.level"
+    said=$(assert_fails 1 play "$tmp/plate.level")
+    assert_holds "$said" "plate.level:4: floor accepts craet, and no body has that name; did you mean crate?"
+    [ "$(wc -l <<<"$said")" -eq 1 ]
+    sed -i 's/craet/crat*/' "$tmp/plate.level"
+    ends_with "$(play "$tmp/plate.level" | tail -n 1)" lost
+}
+
 run_tests

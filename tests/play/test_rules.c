@@ -29,7 +29,9 @@ static void assert_near(double actual, double expected, double tolerance)
 /* The plate's state two seconds after a crate of 20 kg fell on it from a millimetre. */
 static double state_under_crate(const char *plate, double *out_newtons)
 {
-    play_room room = play_room_open(PLATE PLAY_BOX("crate", 0, 0.256, -2, 0.4, 0.4, 0.4, PLAY_BODY(20)), plate);
+    play_room room = play_room_open(PLATE PLAY_BOX("crate", 0, 0.256, -2, 0.4, 0.4, 0.4, PLAY_BODY(20))
+                                        PLAY_BOX("gear", 9, 0.1, 9, 0.2, 0.2, 0.2, PLAY_BODY(1)),
+                                    plate);
     nook_physics_wake(nook_session_physics(room.session), nook_session_body_of(room.session, "crate"));
     play_room_wait(&room, 2.0);
     double down = state_of(&room, "plate");
@@ -78,7 +80,8 @@ static void test_a_plate_goes_down_after_its_seconds_and_comes_up_at_once(void *
 static void test_a_plate_that_wants_a_thing_is_not_held_down_by_the_player(void **state)
 {
     (void)state;
-    play_room room = play_room_open(PLATE, "[plate plate]\nweight = 10\naccepts = crate\n");
+    play_room room = play_room_open(PLATE PLAY_BOX("crate", 9, 0.2, 9, 0.4, 0.4, 0.4, PLAY_BODY(20)),
+                                    "[plate plate]\nweight = 10\naccepts = crate\n");
     play_room_tick(&room, &forward, 50);
     play_room_wait(&room, 1.0);
     assert_true(nook_session_measure_of(room.session, "plate") > 700.0);
