@@ -60,10 +60,27 @@ static bool has_encoder(void)
     return false;
 }
 
-/* Sides of most video formats are even. */
+/* In a process group of its own, so that Ctrl-C at a terminal is ours alone: the film ends when we close it, and is whole. */
+static int spawn(nook_capture *capture, char *const *arguments, int input)
+{
+    posix_spawn_file_actions_t actions;
+    posix_spawnattr_t attributes;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+    posix_spawnattr_setpgroup(&attributes, 0);
+    int error = posix_spawnp(&capture->encoder, arguments[0], &actions, &attributes, arguments, environ);
+    posix_spawnattr_destroy(&attributes);
+    posix_spawn_file_actions_destroy(&actions);
+    return error;
+}
+
+/* Sides of most video formats are even. A name may begin with a dash or hold a colon: "file:" says that it is one. */
 static nook_result spawn_encoder(nook_capture *capture, double rate, int input)
 {
-    char size[32], frames[32];
+    char size[32], frames[32], file[sizeof capture->path + 8];
+    snprintf(file, sizeof file, "file:%s", capture->path);
     snprintf(size, sizeof size, "%ux%u", capture->width, capture->height);
     snprintf(frames, sizeof frames, "%g", rate);
     char *const arguments[] = { "ffmpeg",
@@ -85,13 +102,9 @@ static nook_result spawn_encoder(nook_capture *capture, double rate, int input)
                                 "pad=ceil(iw/2)*2:ceil(ih/2)*2",
                                 "-pix_fmt",
                                 "yuv420p",
-                                capture->path,
+                                file,
                                 NULL };
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
-    int error = posix_spawnp(&capture->encoder, arguments[0], &actions, NULL, arguments, environ);
-    posix_spawn_file_actions_destroy(&actions);
+    int error = spawn(capture, arguments, input);
     if (error == 0)
         return NOOK_OK;
     if (error == ENOENT)

@@ -169,6 +169,30 @@ static void test_ffmpeg_gets_every_picture_and_how_they_are(void **state)
     assert_non_null(strstr((char *)seen.bytes, "-f rawvideo"));
     assert_non_null(strstr((char *)seen.bytes, "-s 6x4"));
     assert_non_null(strstr((char *)seen.bytes, "-r 25"));
+    strcpy(strrchr(path, '.'), "\n"); /* without ".words": the last word */
+    snprintf(script, sizeof script, " file:%s", path);
+    assert_non_null(strstr((char *)seen.bytes, script));
+    nook_file_free(&seen);
+}
+
+static void test_an_interrupt_of_our_process_group_does_not_reach_ffmpeg(void **state)
+{
+    (void)state;
+    char path[4096], script[8400];
+    uint8_t rgb[SIZE] = { 0 };
+    nook_capture *capture;
+    nook_file seen;
+    int process, group;
+    nook_scratch_path(path, sizeof path, "group.mp4");
+    snprintf(script, sizeof script, "#!/bin/sh\nread line </proc/$$/stat\necho \"$line\" >%s\n/bin/cat >/dev/null\n",
+             path);
+    install(script);
+    assert_int_equal(nook_capture_open(&(nook_capture_desc){ path, WIDTH, HEIGHT, 0.0 }, &capture), NOOK_OK);
+    assert_int_equal(nook_capture_add(capture, rgb), NOOK_OK);
+    assert_int_equal(nook_capture_close(capture), NOOK_OK);
+    assert_int_equal(nook_file_read(path, &seen), NOOK_OK);
+    assert_int_equal(sscanf((char *)seen.bytes, "%d (%*[^)]) %*c %*d %d", &process, &group), 2);
+    assert_int_equal(group, process);
     nook_file_free(&seen);
 }
 
@@ -223,6 +247,7 @@ int main(void)
         WITH_PATH(test_video_without_ffmpeg_says_what_to_install),
         WITH_PATH(test_what_cannot_be_captured_is_known_before_anything_is_drawn),
         WITH_PATH(test_ffmpeg_gets_every_picture_and_how_they_are),
+        WITH_PATH(test_an_interrupt_of_our_process_group_does_not_reach_ffmpeg),
         WITH_PATH(test_ffmpeg_that_dies_fails_the_capture_and_nothing_else),
         WITH_PATH(test_ffmpeg_that_fails_at_the_end_is_told_at_the_close),
     };
