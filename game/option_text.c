@@ -126,7 +126,9 @@ bool nook_option_store(const nook_option *option, const char *text)
 
 static void describe_number(const nook_option *option, const char *what, char *out, size_t capacity)
 {
-    if (is_bounded(option))
+    if (is_bounded(option) && option->kind == NOOK_OPTION_INT) /* with all of its digits */
+        snprintf(out, capacity, "%s from %.0f to %.0f", what, option->lowest, option->highest);
+    else if (is_bounded(option))
         snprintf(out, capacity, "%s from %.9g to %.9g", what, option->lowest, option->highest);
     else
         snprintf(out, capacity, "%s", what);

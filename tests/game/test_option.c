@@ -9,7 +9,7 @@
 typedef struct settings {
     bool json;
     const char *out;
-    int32_t rays;
+    int32_t rays, frames;
     double r_max;
     nook_option_size size;
     int32_t falloff;
@@ -32,6 +32,7 @@ static nook_parse parse(settings *to, nook_arguments *arguments, char **words)
         { .name = "json", .kind = NOOK_OPTION_FLAG, .target = &to->json, .help = "print JSON" },
         { .name = "out", .kind = NOOK_OPTION_TEXT, .target = &to->out, .placeholder = "DIR", .help = "folder" },
         { .name = "rays", .kind = NOOK_OPTION_INT, .target = &to->rays, .lowest = 1, .highest = 64 },
+        { .name = "frames", .kind = NOOK_OPTION_INT, .target = &to->frames, .lowest = 1, .highest = INT32_MAX },
         { .name = "r-max", .kind = NOOK_OPTION_NUMBER, .target = &to->r_max },
         { .name = "size", .kind = NOOK_OPTION_SIZE, .target = &to->size, .lowest = 1, .highest = 16384 },
         { .name = "falloff", .kind = NOOK_OPTION_CHOICE, .target = &to->falloff, .choices = "hard|linear|wendland" },
@@ -176,6 +177,12 @@ static void test_options_refuse_bad_whole_numbers(void **state)
     }
 }
 
+static void test_whole_numbers_are_asked_for_with_all_their_digits(void **state)
+{
+    (void)state;
+    CHECK_WRONG("nook compare: --frames 0: give a whole number from 1 to 2147483647", "a.glb", "--frames", "0");
+}
+
 static void test_options_refuse_numbers_that_are_not_finite(void **state)
 {
     (void)state;
@@ -272,6 +279,7 @@ int main(void)
         cmocka_unit_test(test_two_dashes_end_the_options),
         cmocka_unit_test(test_options_refuse_bad_sizes),
         cmocka_unit_test(test_options_refuse_bad_whole_numbers),
+        cmocka_unit_test(test_whole_numbers_are_asked_for_with_all_their_digits),
         cmocka_unit_test(test_options_refuse_numbers_that_are_not_finite),
         cmocka_unit_test(test_options_refuse_a_choice_that_does_not_exist),
         cmocka_unit_test(test_options_name_the_misspelt_option_and_the_likely_one),
