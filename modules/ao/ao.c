@@ -1,6 +1,7 @@
 #include "engine/core/log.h"
 #include "modules/ao/ao_internal.h"
 #include "modules/ao/frame_block_internal.h"
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -126,6 +127,14 @@ void nook_ao_set_progress(nook_ao *ao, void (*progress)(void *user, double fract
     ao->progress_user = user;
 }
 
+static const double AFFINE_TOLERANCE = 1e-5; /* as a camera's: what a product of a few matrices in float leaves */
+
+/* Where a matrix of rows has its translation; zeros are a singular one, which is left out. */
+static bool is_affine(const double m[16])
+{
+    return !(fabs(m[3]) > AFFINE_TOLERANCE || fabs(m[7]) > AFFINE_TOLERANCE || fabs(m[11]) > AFFINE_TOLERANCE);
+}
+
 nook_result nook_ao_submit_occluders(nook_ao *ao, const nook_ao_occluder *occluders, uint32_t count)
 {
     if (count > ao->occluder_max)
@@ -136,6 +145,12 @@ nook_result nook_ao_submit_occluders(nook_ao *ao, const nook_ao_occluder *occlud
         if ((volume && !ao_volume_id_is_known(ao, volume)) || (mesh && ao_mesh_index(ao, mesh) == UINT32_MAX))
             return nook_fail(NOOK_E_ARG, "occluder %u of %u: its volume %u or mesh %u has been removed", i, count,
                              volume, mesh);
+        if (!is_affine(occluders[i].world_from_mesh))
+            return nook_fail(NOOK_E_ARG,
+                             "occluder %u of %u: world_from_mesh is not affine, its last row begins with %g, %g, %g; "
+                             "matrices are column-major",
+                             i, count, occluders[i].world_from_mesh[3], occluders[i].world_from_mesh[7],
+                             occluders[i].world_from_mesh[11]);
     }
     if (count)
         memcpy(ao->occluders, occluders, count * sizeof *occluders);

@@ -1,5 +1,7 @@
 /**
  * inspect.h - what the AO core holds and works on, for those who show it: debug views, probes, truth in the background.
+ *
+ * Counting and snapshots work on a frame as a record does: for nook_ao_frame.same_view and nook_ao_get_statistics they are the last one.
  */
 #pragma once
 #include "modules/ao/technique.h"

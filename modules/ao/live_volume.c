@@ -56,11 +56,13 @@ nook_result nook_ao_add_live_volume(nook_ao *ao, const char *name, const uint32_
     result = volume.voxels ? volume_atlas_add(&ao->atlases[NOOK_VOLUME_BINARY], made.id, &volume)
                            : nook_fail(NOOK_E_MEMORY, "%s: no memory for a live volume", name);
     nook_volume_free(&volume);
-    if (result == NOOK_OK)
-        *out_volume = made;
-    else
+    if (result != NOOK_OK) {
         nook_ao_remove_volume(ao, made);
-    return result;
+        return result;
+    }
+    volume_atlas_set_live(&ao->atlases[NOOK_VOLUME_BINARY], made.id);
+    *out_volume = made;
+    return NOOK_OK;
 }
 
 /* ---- Voxelising -------------------------------------------------------------------------------------------------- */
@@ -143,15 +145,27 @@ static void merge_slices(nook_ao *ao, const atlas_entry *entry, nook_program pro
                   nook_groups(info->depth, RUN));
 }
 
+static nook_result check_mesh(const nook_ao_live_mesh *mesh)
+{
+    if (!(mesh->voxel_size > 0.0) || !isfinite(mesh->voxel_size))
+        return nook_fail(NOOK_E_ARG, "voxels of %g m; their side must be above 0", mesh->voxel_size);
+    for (int axis = 0; axis < 3; axis++)
+        if (mesh->box_max[axis] < mesh->box_min[axis])
+            return nook_fail(NOOK_E_ARG, "a live mesh whose box goes from %g down to %g m: it has no vertices",
+                             (double)mesh->box_min[axis], (double)mesh->box_max[axis]);
+    return NOOK_OK;
+}
+
 nook_result nook_ao_voxelize(nook_ao *ao, nook_ao_volume volume, const nook_ao_live_mesh *mesh)
 {
     nook_program merge;
     const atlas_entry *entry = volume_atlas_find(&ao->atlases[NOOK_VOLUME_BINARY], volume.id);
-    if (!entry)
-        return nook_fail(NOOK_E_ARG, "volume %u is not there to be made anew", volume.id);
-    if (!(mesh->voxel_size > 0.0) || !isfinite(mesh->voxel_size))
-        return nook_fail(NOOK_E_ARG, "voxels of %g m; their side must be above 0", mesh->voxel_size);
-    nook_result result = nook_program_compute(ao->gpu, "shaders/ao/voxel_merge.comp.glsl", "", &merge);
+    if (!entry || !entry->live)
+        return nook_fail(NOOK_E_ARG, "volume %u is %s", volume.id,
+                         entry ? "not a live one, to be made anew" : "not there to be made anew");
+    nook_result result = check_mesh(mesh);
+    if (result == NOOK_OK)
+        result = nook_program_compute(ao->gpu, "shaders/ao/voxel_merge.comp.glsl", "", &merge);
     if (result == NOOK_OK)
         result = volume_atlas_flush(&ao->atlases[NOOK_VOLUME_BINARY]);
     if (result != NOOK_OK)

@@ -58,7 +58,7 @@ typedef struct nook_ao_occluder {
     nook_ao_volume volume; /**< What the volume techniques march; id 0: they do not see this occluder. */
     nook_ao_mesh mesh;     /**< What the reference traces; id 0: it does not see this occluder. */
     /** Any affine matrix. A singular one leaves the occluder out, and so does one that floats cannot hold: with voxels smaller than
-        1e-18 m or larger than 1e18 m the volume techniques do not see it. */
+        1e-18 m or larger than 1e18 m the volume techniques do not see it. Elements 3, 7 and 11 are 0: to 1e-5. */
     double world_from_mesh[16];
 } nook_ao_occluder;
 
@@ -68,8 +68,10 @@ enum { NOOK_AO_COUNTS_FETCHES, NOOK_AO_COUNTS_STEPS };
 
 typedef struct nook_ao_frame {
     double view_from_world[16]; /**< Rigid: to 1e-5. */
-    double clip_from_view[16];  /**< Perspective, depth in [0, 1]; normal or reversed-Z is told from it. */
-    nook_ao_texture depth;      /**< Required. Device depth at full size, row 0 at the bottom. */
+    double clip_from_view
+        [16]; /**< Perspective, depth in [0, 1]; normal or reversed-Z is told from it. Only elements 0, 5, 8, 9, 10
+                                     and 14 may be anything: no oblique near planes. */
+    nook_ao_texture depth;  /**< Required. Device depth at full size, row 0 at the bottom. */
     nook_ao_texture normal; /**< World space, octahedral RG (shaders/nook/octahedral.glsl). None: rebuilt from depth.
                                  Give the geometric normal: rays below the true surface are nobody's occlusion. */
     uint32_t index;         /**< Seeds the noise. Same index, same pixels; with ao.reuse where nothing has moved. */
@@ -170,7 +172,9 @@ typedef struct nook_ao_live_mesh {
     const nook_ao_live_mask *masks; /**< Of the ranges; NULL: none has one. */
     uint32_t uv_offset; /**< Of ranges with a mask: bytes from a vertex to its place on the texture, two floats. */
     float box_min[3],
-        box_max[3];    /**< Of all of them, the volume's space. What leaves the volume's room darkens nothing. */
+        box_max
+            [3]; /**< Of all of them, the volume's space. What leaves the volume's room darkens nothing; nor does anything
+                         where a box is not finite. */
     double voxel_size; /**< Metres, > 0. */
 } nook_ao_live_mesh;
 
@@ -184,7 +188,9 @@ nook_result nook_ao_add_live_volume(nook_ao *ao, const char *name, const uint32_
  * Voxelises a mesh into a live volume, on the GPU, for the records that follow: three slicemaps, ORed. GL's framebuffer, viewport,
  * vertex array and tests are left as they were. It binds a program, textures of units 0 to 2 and, of masks, 5, image unit 0, and does not restore
  * them; sampler objects of these texture units are unbound. Masks are read whatever their own filters. The voxels of a mesh that stands still stay as they are while its box moves.
- * @return NOOK_E_ARG a stale id, a voxel_size that is none; NOOK_E_MEMORY, NOOK_E_DEVICE
+ * @param volume  of nook_ao_add_live_volume
+ * @return NOOK_E_ARG a stale id, a volume that is not live, a voxel_size that is none, a box_max below box_min: all is as it was;
+ *         NOOK_E_MEMORY, NOOK_E_DEVICE
  */
 nook_result nook_ao_voxelize(nook_ao *ao, nook_ao_volume volume, const nook_ao_live_mesh *mesh);
 
@@ -237,7 +243,7 @@ const struct nook_param *nook_ao_shared_params(size_t *out_count);
 
 /**
  * Replaces the list used by the next record. Call it every frame; count may be 0. What is removed after it is left out.
- * @return NOOK_E_ARG too many, or an id that has been removed: then the list stays as it was
+ * @return NOOK_E_ARG too many, an id that has been removed, a matrix that is not affine: then the list stays as it was
  */
 nook_result nook_ao_submit_occluders(nook_ao *ao, const nook_ao_occluder *occluders, uint32_t count);
 

@@ -48,6 +48,16 @@ static int is_rigid(const double m[16])
     return m[3] == 0.0 && m[7] == 0.0 && m[11] == 0.0 && m[15] == 1.0;
 }
 
+/* w = -z, and depth follows from z alone: what an oblique near plane or a turned picture has besides would be lost in set_projection. */
+static int is_perspective(const double p[16])
+{
+    static const int zeros[] = { 1, 2, 3, 4, 6, 7, 12, 13, 15 };
+    int upright = 1;
+    for (size_t i = 0; i < NOOK_COUNT(zeros); i++)
+        upright = upright && p[zeros[i]] == 0.0;
+    return upright && p[11] == -1.0 && fabs(p[0]) > 0.0 && fabs(p[5]) > 0.0 && p[14] != 0.0;
+}
+
 static nook_result check_frame(const nook_ao *ao, const nook_ao_frame *frame)
 {
     const double *p = frame->clip_from_view;
@@ -64,8 +74,9 @@ static nook_result check_frame(const nook_ao *ao, const nook_ao_frame *frame)
         return nook_fail(NOOK_E_ARG, "nook_ao_record: clip_from_view or view_from_world is not finite");
     if (!is_rigid(frame->view_from_world))
         return nook_fail(NOOK_E_ARG, "nook_ao_record: view_from_world is not rigid; scale the world, not the camera");
-    if (p[11] != -1.0 || p[15] != 0.0 || !(fabs(p[0]) > 0.0) || !(fabs(p[5]) > 0.0) || p[14] == 0.0)
-        return nook_fail(NOOK_E_ARG, "nook_ao_record: clip_from_view is not a perspective with w = -z");
+    if (!is_perspective(p))
+        return nook_fail(NOOK_E_ARG,
+                         "nook_ao_record: clip_from_view is not a perspective with w = -z, or its near plane leans");
     return ao_region_check(ao, &frame->part);
 }
 

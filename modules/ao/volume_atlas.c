@@ -150,6 +150,13 @@ void volume_atlas_set_info(volume_atlas *atlas, uint32_t id, const nook_volume_i
     atlas->seen.items[i].version++;
 }
 
+void volume_atlas_set_live(volume_atlas *atlas, uint32_t id)
+{
+    uint32_t i = entry_index(atlas, id);
+    assert(i != UINT32_MAX);
+    atlas->seen.items[i].live = true;
+}
+
 /* ---- The texture --------------------------------------------------------------------------------------------------- */
 
 void volume_atlas_note(volume_atlas *atlas, const atlas_box *box)

@@ -19,6 +19,7 @@ typedef struct atlas_entry {
     uint8_t *pending; /**< Voxels that are not on the GPU yet; NULL once they are. Owned. */
     uint32_t written; /**< Of one that comes: its slices that are on the GPU. */
     bool streamed;
+    bool live; /**< Made anew on the GPU: nook_ao_voxelize. */
 } atlas_entry;
 
 /** Entries in an array that grows. */
@@ -59,6 +60,8 @@ void volume_atlas_remove(volume_atlas *atlas, uint32_t id); /**< An id that is n
 const atlas_entry *volume_atlas_find(const volume_atlas *atlas, uint32_t id);
 /** Says what lies in a volume's box from now on, which is about to be written anew; no larger than the box. Ids that are stale are passed over. */
 void volume_atlas_set_info(volume_atlas *atlas, uint32_t id, const nook_volume_info *info);
+/** Says that a volume that is there may be made anew. */
+void volume_atlas_set_live(volume_atlas *atlas, uint32_t id);
 /** Brings the texture up to date. @return NOOK_E_MEMORY, NOOK_E_DEVICE */
 nook_result volume_atlas_flush(volume_atlas *atlas);
 /** Replaces the texture by one of the tree's size, unless it is, and copies what was there. @return NOOK_E_MEMORY, NOOK_E_RANGE */

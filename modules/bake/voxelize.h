@@ -60,7 +60,7 @@ typedef struct nook_voxelize_desc {
 /**
  * Makes the volume of a soup, or a level of it: its bounding box at `resolution`, plus one empty voxel on every side.
  * Degenerate triangles are voxelised as the segments or points they are, and have no surfels, which cover area; triangles with a non-finite corner are left out
- * (one warning counts them). Soups smaller than a micrometre are voxelised as if they were that large.
+ * (one warning counts them). A soup without extent is voxelised as if it were as large as floats can tell apart where it lies, a micrometre in the origin.
  * @return NOOK_E_RANGE resolution, kind or level; NOOK_E_ARG nothing finite to voxelise, or indices, stride or parts out of bounds;
  *         NOOK_E_MEMORY; *out_volume is untouched on failure. Its content_hash is nook_voxelize_hash's.
  */

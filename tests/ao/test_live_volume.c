@@ -483,6 +483,54 @@ static void test_sizes_and_ids_that_cannot_be_are_refused(void **state)
     close_fixture(&f);
 }
 
+/* As they are before any vertex has widened them. */
+static void test_boxes_inside_out_are_refused_and_change_nothing(void **state)
+{
+    static const float none[][2] = { { 1.0f, -1.0f }, { 3e38f, -3e38f }, { INFINITY, -INFINITY } };
+    static soup s;
+    nook_log_capture log;
+    make_soup(&s, 7);
+    fixture f = open_fixture(test_gpu_of(state), &s);
+    voxelize(&f);
+    const nook_volume_info before = volume_atlas_find(&f.ao->atlases[NOOK_VOLUME_BINARY], f.volume.id)->info;
+    for (size_t i = 0; i < NOOK_COUNT(none); i++) {
+        f.mesh.box_min[1] = none[i][0], f.mesh.box_max[1] = none[i][1];
+        nook_log_capture_begin(&log);
+        assert_int_equal(nook_ao_voxelize(f.ao, f.volume, &f.mesh), NOOK_E_ARG);
+        nook_log_capture_end();
+        assert_int_equal(log.count, 1);
+        assert_non_null(strstr(log.text, "box"));
+        assert_memory_equal(&volume_atlas_find(&f.ao->atlases[NOOK_VOLUME_BINARY], f.volume.id)->info, &before,
+                            sizeof before);
+    }
+    close_fixture(&f);
+}
+
+static void test_a_volume_that_was_baked_is_not_voxelised_over(void **state)
+{
+    static soup s;
+    nook_log_capture log;
+    nook_volume baked;
+    void *bytes;
+    size_t size;
+    nook_ao_volume volume;
+    make_soup(&s, 7);
+    fixture f = open_fixture(test_gpu_of(state), &s);
+    const nook_triangles triangles = { s.positions[0], 0, NOOK_COUNT(s.positions), s.indices, NOOK_COUNT(s.indices) };
+    assert_int_equal(nook_voxelize(&triangles, &(nook_voxelize_desc){ .resolution = 16 }, &baked), NOOK_OK);
+    assert_int_equal(nook_volume_encode(&baked, &bytes, &size), NOOK_OK);
+    assert_int_equal(nook_ao_add_volume(f.ao, "baked", bytes, size, &volume), NOOK_OK);
+    nook_log_capture_begin(&log);
+    f.part.ranges = &f.range;
+    f.mesh.parts = &f.part;
+    assert_int_equal(nook_ao_voxelize(f.ao, volume, &f.mesh), NOOK_E_ARG);
+    nook_log_capture_end();
+    assert_non_null(strstr(log.text, "live"));
+    nook_volume_free(&baked);
+    free(bytes);
+    close_fixture(&f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -500,6 +548,10 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_layers_beyond_the_first_texel_are_those_of_the_grid, test_gpu_setup,
                                         test_gpu_teardown),
         cmocka_unit_test_setup_teardown(test_sizes_and_ids_that_cannot_be_are_refused, test_gpu_setup,
+                                        test_gpu_teardown),
+        cmocka_unit_test_setup_teardown(test_boxes_inside_out_are_refused_and_change_nothing, test_gpu_setup,
+                                        test_gpu_teardown),
+        cmocka_unit_test_setup_teardown(test_a_volume_that_was_baked_is_not_voxelised_over, test_gpu_setup,
                                         test_gpu_teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -269,6 +269,19 @@ static void test_context_refuses_ids_that_were_removed(void **state)
     nook_fixture_view_drop_occluders(view);
 }
 
+static void test_context_refuses_matrices_that_are_the_wrong_way_round(void **state)
+{
+    nook_fixture_view *view = *state;
+    add_box(view);
+    nook_ao_occluder occluder = view->occluders[0];
+    for (int axis = 0; axis < 3; axis++) {
+        occluder = view->occluders[0];
+        occluder.world_from_mesh[4 * axis + 3] = 0.5; /* where its translation is in a matrix of rows */
+        EXPECT_REFUSED(nook_ao_submit_occluders(view->ao, &occluder, 1), NOOK_E_ARG, "column-major");
+    }
+    nook_fixture_view_drop_occluders(view);
+}
+
 static void test_record_leaves_out_what_was_removed_after_submitting(void **state)
 {
     nook_fixture_view *view = *state;
@@ -311,7 +324,23 @@ static void test_record_refuses_matrices_that_are_no_camera(void **state)
     static const struct {
         int element;
         double value;
-    } bad[] = { { 0, 0.0 }, { 5, NAN }, { 10, INFINITY }, { 11, 0.0 }, { 14, 0.0 }, { 15, 1.0 } };
+    } bad[] = {
+        { 0, 0.0 },
+        { 5, NAN },
+        { 10, INFINITY },
+        { 11, 0.0 },
+        { 14, 0.0 },
+        { 15, 1.0 },
+        /* a near plane that leans, a picture that is turned or sheared, one that is moved by as much at any distance */
+        { 2, 0.1 },
+        { 6, -0.1 },
+        { 1, 0.1 },
+        { 4, 0.1 },
+        { 3, 0.1 },
+        { 7, 0.1 },
+        { 12, 0.1 },
+        { 13, 0.1 }
+    };
     for (size_t i = 0; i < NOOK_COUNT(bad); i++) {
         frame = good_frame(view), frame.clip_from_view[bad[i].element] = bad[i].value;
         EXPECT_REFUSED(nook_ao_record(view->ao, &frame), NOOK_E_ARG, "clip_from_view");
@@ -435,6 +464,7 @@ int main(void)
         cmocka_unit_test(test_context_refuses_techniques_of_another_version_or_name),
         cmocka_unit_test(test_context_refuses_too_many_occluders_and_keeps_the_list),
         cmocka_unit_test(test_context_refuses_ids_that_were_removed),
+        cmocka_unit_test(test_context_refuses_matrices_that_are_the_wrong_way_round),
         cmocka_unit_test(test_record_leaves_out_what_was_removed_after_submitting),
         cmocka_unit_test(test_record_refuses_textures_of_another_size),
         cmocka_unit_test(test_record_refuses_matrices_that_are_no_camera),
