@@ -46,7 +46,7 @@ static void use_settings(nook_play_window *w, const nook_settings_file *file)
         nook_ao_get_param(w->stage.ao, "ao.falloff", &falloff) == NOOK_OK)
         views->falloff = falloff;
     if (w->stage.stream)
-        nook_stream_set_params(w->stage.stream, &file->stream);
+        (void)nook_stream_set_params(w->stage.stream, &file->stream); /* in their ranges, or the file was refused */
     else if (file->stream.budget > 0.0f && !file->live)
         nook_log_info("play: a first volumes.budget comes with the next start");
     w->settings = *file;

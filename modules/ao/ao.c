@@ -17,6 +17,16 @@ static nook_result check_size(uint32_t width, uint32_t height, uint32_t limit)
     return NOOK_OK;
 }
 
+/* The list of occluders is a texture buffer. */
+static nook_result check_occluder_max(const nook_gpu *gpu, uint32_t occluder_max)
+{
+    const uint32_t most = gpu->max_texture_buffer_size / (sizeof(ao_gpu_occluder) / (4 * sizeof(float)));
+    if (occluder_max <= most)
+        return NOOK_OK;
+    return nook_fail(NOOK_E_ARG, "nook_ao: %u occluders (nook_ao_desc.max_occluders); this device takes %u",
+                     occluder_max, most);
+}
+
 static int allocate_lists(nook_ao *ao)
 {
     ao->occluders = calloc(ao->occluder_max, sizeof *ao->occluders);
@@ -59,6 +69,8 @@ nook_result nook_ao_create(const nook_ao_desc *desc, nook_ao **out_ao)
     if (!desc->gpu)
         return nook_fail(NOOK_E_ARG, "nook_ao: desc.gpu is missing");
     nook_result result = check_size(desc->width, desc->height, desc->gpu->max_texture_size);
+    if (result == NOOK_OK)
+        result = check_occluder_max(desc->gpu, desc->max_occluders);
     if (result != NOOK_OK)
         return result;
     nook_ao *ao = calloc(1, sizeof *ao);

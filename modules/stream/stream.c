@@ -230,10 +230,13 @@ void nook_stream_remove(nook_stream *stream, nook_ao_volume volume)
 nook_result nook_stream_create(nook_ao *ao, const nook_stream_params *params, nook_stream **out_stream)
 {
     *out_stream = NULL;
+    nook_result result = nook_stream_params_check(params);
+    if (result != NOOK_OK)
+        return result;
     nook_stream *stream = calloc(1, sizeof *stream);
     if (!stream)
         return nook_fail(NOOK_E_MEMORY, "stream: no memory");
-    nook_result result = stream_loader_create(&stream->loader);
+    result = stream_loader_create(&stream->loader);
     if (result != NOOK_OK) {
         free(stream);
         return result;
@@ -265,12 +268,16 @@ void nook_stream_suspend(nook_stream *stream)
     stream_loader_rest(stream->loader);
 }
 
-void nook_stream_set_params(nook_stream *stream, const nook_stream_params *params)
+nook_result nook_stream_set_params(nook_stream *stream, const nook_stream_params *params)
 {
+    nook_result result = nook_stream_params_check(params);
+    if (result != NOOK_OK)
+        return result;
     stream->stale = stream->stale || stream->params.budget != params->budget;
     stream->failed = false;
     stream->settled = false;
     stream->params = *params;
+    return NOOK_OK;
 }
 
 const nook_stream_params *nook_stream_params_of(const nook_stream *stream)

@@ -34,7 +34,7 @@ typedef struct nook_stream_level {
     double error;
 } nook_stream_level;
 
-/** @return NOOK_E_MEMORY no memory or no thread; *out_stream is NULL then. @param ao  outlives the stream */
+/** @return NOOK_E_MEMORY no memory or no thread; NOOK_E_RANGE a parameter outside of its range; *out_stream is NULL then. @param ao  outlives the stream */
 nook_result nook_stream_create(nook_ao *ao, const nook_stream_params *params, nook_stream **out_stream);
 /** Waits for what is being decoded; the volumes are removed from the AO. NULL is allowed. */
 void nook_stream_destroy(nook_stream *stream);
@@ -60,8 +60,9 @@ void nook_stream_remove(nook_stream *stream, nook_ao_volume volume);
 /**
  * Other numbers from the next update on. A smaller budget is given back by then: what does not fit goes.
  * Where the room changes its size, contents are copied within the GPU once, and both are there for that moment.
+ * @return NOOK_E_RANGE one is outside of its range: all stay as they were
  */
-void nook_stream_set_params(nook_stream *stream, const nook_stream_params *params);
+nook_result nook_stream_set_params(nook_stream *stream, const nook_stream_params *params);
 const nook_stream_params *nook_stream_params_of(const nook_stream *stream);
 
 /** From where the next record looks. */

@@ -15,6 +15,8 @@ extern "C" {
 const nook_param *nook_stream_param_table(size_t *out_count);
 /** Everything at its initial value: no bounds on memory. */
 nook_stream_params nook_stream_params_initial(void);
+/** @return NOOK_E_RANGE one of them is outside of its range: the line says which */
+nook_result nook_stream_params_check(const nook_stream_params *params);
 /**
  * Sets one parameter from text.
  * @param where  names the source in the message

@@ -181,7 +181,7 @@ static void test_settings_tables_list_every_parameter_with_its_initial_value(voi
     assert_null(nook_ao_technique_at(view->ao, 8));
 }
 
-static void test_context_refuses_another_version_no_device_and_no_pixels(void **state)
+static void test_context_refuses_another_version_no_device_no_pixels_and_too_many_occluders(void **state)
 {
     nook_fixture_view *view = *state;
     nook_ao *ao = view->ao;
@@ -195,6 +195,10 @@ static void test_context_refuses_another_version_no_device_and_no_pixels(void **
     EXPECT_REFUSED(nook_ao_create(&desc, &ao), NOOK_E_ARG, "0x4");
     desc = good, desc.height = 1u << 30;
     EXPECT_REFUSED(nook_ao_create(&desc, &ao), NOOK_E_ARG, "1073741824");
+    desc = good, desc.max_occluders = view->gpu->max_texture_buffer_size / 9 + 1; /* texels of an occluder */
+    EXPECT_REFUSED(nook_ao_create(&desc, &ao), NOOK_E_ARG, "max_occluders");
+    desc.max_occluders = UINT32_MAX;
+    EXPECT_REFUSED(nook_ao_create(&desc, &ao), NOOK_E_ARG, "max_occluders");
     EXPECT_REFUSED(nook_ao_set_size(view->ao, 0, 4), NOOK_E_ARG, "0x4");
     EXPECT_REFUSED(nook_ao_set_size(view->ao, 4, 0), NOOK_E_ARG, "4x0");
     nook_ao_destroy(NULL);
@@ -460,7 +464,7 @@ int main(void)
         cmocka_unit_test(test_settings_of_a_technique_outlive_a_change_of_technique),
         cmocka_unit_test(test_settings_all_go_back_to_their_initial_values),
         cmocka_unit_test(test_settings_tables_list_every_parameter_with_its_initial_value),
-        cmocka_unit_test(test_context_refuses_another_version_no_device_and_no_pixels),
+        cmocka_unit_test(test_context_refuses_another_version_no_device_no_pixels_and_too_many_occluders),
         cmocka_unit_test(test_context_refuses_techniques_of_another_version_or_name),
         cmocka_unit_test(test_context_refuses_too_many_occluders_and_keeps_the_list),
         cmocka_unit_test(test_context_refuses_ids_that_were_removed),

@@ -217,7 +217,7 @@ static void set_budget(fixture *self, double bytes)
 {
     nook_stream_params params = *nook_stream_params_of(self->stage.stream);
     params.budget = (float)(bytes / (1024.0 * 1024.0));
-    nook_stream_set_params(self->stage.stream, &params);
+    assert_int_equal(nook_stream_set_params(self->stage.stream, &params), NOOK_OK);
 }
 
 static nook_stream_status settled_with(fixture *self, double bytes)

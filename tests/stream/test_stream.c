@@ -167,7 +167,7 @@ static void test_a_smaller_budget_gives_memory_back_and_a_larger_one_brings_ever
     uint64_t memory = stream_hall_status(&hall).memory;
     nook_stream_params params = *nook_stream_params_of(hall.stream);
     params.budget = (float)(all / 5.0);
-    nook_stream_set_params(hall.stream, &params);
+    assert_int_equal(nook_stream_set_params(hall.stream, &params), NOOK_OK);
     stream_hall_update(&hall);
     assert_true(stream_hall_status(&hall).memory <= (uint64_t)(all / 5.0 * mebibyte));
     assert_true(stream_hall_status(&hall).resident > 0); /* what fits stayed, without being read again */
@@ -175,7 +175,7 @@ static void test_a_smaller_budget_gives_memory_back_and_a_larger_one_brings_ever
     stream_hall_settle(&hall);
     assert_true(stream_hall_status(&hall).memory < memory / 4);
     params.budget = (float)(4.0 * all);
-    nook_stream_set_params(hall.stream, &params);
+    assert_int_equal(nook_stream_set_params(hall.stream, &params), NOOK_OK);
     stream_hall_settle(&hall);
     assert_int_equal(stream_hall_status(&hall).resident, STREAM_HALL_BODIES);
     assert_int_equal(stream_hall_status(&hall).waiting, 0);
@@ -192,7 +192,7 @@ static void test_uploads_of_a_frame_are_bounded_and_volumes_come_in_parts(void *
     stream_hall_start(&hall, 1, 0.0);
     nook_stream_params params = *nook_stream_params_of(hall.stream);
     params.upload = 0.26f;
-    nook_stream_set_params(hall.stream, &params);
+    assert_int_equal(nook_stream_set_params(hall.stream, &params), NOOK_OK);
     stream_hall_settle(&hall);
     nook_stream_status status = stream_hall_status(&hall);
     assert_true(status.largest_upload > 0 && status.largest_upload <= (uint64_t)(0.26 * mebibyte) + 1);
@@ -201,6 +201,38 @@ static void test_uploads_of_a_frame_are_bounded_and_volumes_come_in_parts(void *
 }
 
 /* ---- Rest -------------------------------------------------------------------------------------------------------------- */
+
+/* Nothing would ever come, and nobody would know why. */
+static void test_parameters_outside_of_their_ranges_are_refused(void **state)
+{
+    (void)state;
+    static const struct {
+        float budget, upload;
+        const char *name;
+    } wrong[] = { { 0.0f, 0.0f, "volumes.upload" },     { 0.0f, INFINITY, "volumes.upload" },
+                  { 0.0f, NAN, "volumes.upload" },      { -1.0f, 1.0f, "volumes.budget" },
+                  { INFINITY, 1.0f, "volumes.budget" }, { NAN, 1.0f, "volumes.budget" } };
+    stream_hall hall;
+    stream_hall_open(&hall, NOOK_VOLUME_BINARY);
+    stream_hall_start(&hall, STREAM_HALL_LEVELS, 0.0);
+    for (size_t i = 0; i < NOOK_COUNT(wrong); i++) {
+        nook_stream *none = hall.stream;
+        nook_stream_params params = nook_stream_params_initial();
+        nook_log_capture log;
+        params.budget = wrong[i].budget;
+        params.upload = wrong[i].upload;
+        nook_log_capture_begin(&log);
+        assert_int_equal(nook_stream_create(hall.view->ao, &params, &none), NOOK_E_RANGE);
+        assert_int_equal(nook_stream_set_params(hall.stream, &params), NOOK_E_RANGE);
+        nook_log_capture_end();
+        assert_null(none);
+        assert_int_equal(log.count, 2);
+        assert_non_null(strstr(log.text, wrong[i].name));
+    }
+    stream_hall_settle(&hall); /* by the parameters that it had */
+    assert_int_equal(stream_hall_status(&hall).resident, STREAM_HALL_BODIES);
+    stream_hall_close(&hall);
+}
 
 static void test_a_camera_that_sways_makes_nothing_come_and_go(void **state)
 {
@@ -387,6 +419,7 @@ int main(void)
         cmocka_unit_test(test_what_is_seen_has_its_volumes_where_memory_is_short),
         cmocka_unit_test(test_a_smaller_budget_gives_memory_back_and_a_larger_one_brings_everything),
         cmocka_unit_test(test_uploads_of_a_frame_are_bounded_and_volumes_come_in_parts),
+        cmocka_unit_test(test_parameters_outside_of_their_ranges_are_refused),
         cmocka_unit_test(test_a_camera_that_sways_makes_nothing_come_and_go),
         cmocka_unit_test(test_frames_in_which_nothing_comes_allocate_nothing),
         cmocka_unit_test(test_a_broken_file_is_one_line_and_its_body_does_without),
