@@ -69,7 +69,7 @@ bool nook_overlay_panel_begin(nook_overlay *overlay, const nook_overlay_panel *p
 void nook_overlay_panel_end(nook_overlay *overlay);
 
 void nook_overlay_text(nook_overlay *overlay, const char *text);
-/** The same in lines of at most `width` letters' heights. */
+/** The same in lines of at most `width` letters' heights, and no wider than a panel whose width was given. */
 void nook_overlay_text_wrapped(nook_overlay *overlay, double width, const char *text);
 void nook_overlay_text_coloured(nook_overlay *overlay, nook_overlay_colour colour, const char *text);
 void nook_overlay_separator(nook_overlay *overlay);

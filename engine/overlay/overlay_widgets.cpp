@@ -94,10 +94,13 @@ void nook_overlay_text(nook_overlay *overlay, const char *text)
     ImGui::TextUnformatted(text);
 }
 
+/* A panel that fits itself to what it holds has no room of its own to keep to. */
 void nook_overlay_text_wrapped(nook_overlay *overlay, double width, const char *text)
 {
     (void)overlay;
-    ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + (float)width * ImGui::GetFontSize());
+    const float wanted = ImGui::GetCursorPosX() + (float)width * ImGui::GetFontSize();
+    const bool fits = ImGui::GetCurrentWindow()->Flags & ImGuiWindowFlags_AlwaysAutoResize;
+    ImGui::PushTextWrapPos(fits ? wanted : std::fmin(wanted, ImGui::GetContentRegionMax().x));
     ImGui::TextUnformatted(text);
     ImGui::PopTextWrapPos();
 }

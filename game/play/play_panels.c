@@ -112,27 +112,34 @@ static void draw_state(const nook_play_window *window, nook_overlay *overlay, co
         nook_overlay_label(overlay, (double[]){ x, y }, lines[i].colour, lines[i].text);
 }
 
-static void draw_message(const nook_play_window *window, nook_overlay *overlay, const nook_session_view *view)
+/* @return where a line above it would be */
+static double draw_message(const nook_play_window *window, nook_overlay *overlay, const nook_session_view *view)
 {
     const double line = nook_overlay_letter_height(overlay), x = 0.5 * window->width;
     bool plays = view->status == NOOK_SESSION_PLAYING;
     double y = label_lines(overlay, x, window->height - 4.5 * line, plays ? white : gold, view->message);
-    if (!plays)
-        label_around(overlay, x, y, white, "Backspace: from the start again");
+    if (plays)
+        return *view->message ? y : window->height;
+    label_around(overlay, x, y, white, "Backspace: from the start again");
+    return y - 1.6 * line;
 }
 
-/* While it is paused the menu says what is to be done; the lists of keys lie where the message is. */
+/*
+ * While it is paused the menu says what is to be done; the lists of keys lie where the message is. In a low window that reaches up
+ * to below the cross: the hint goes above it.
+ */
 void nook_play_draw_hud(nook_play_window *window, nook_overlay *overlay)
 {
     const nook_session_view view = nook_session_look(window->play.session);
-    const double x = 0.5 * window->width, y = 0.5 * window->height;
+    const double x = 0.5 * window->width, y = 0.5 * window->height, gap = 3.0 * nook_overlay_letter_height(overlay);
+    double free_down_to = window->height;
     draw_state(window, overlay, &view);
     if (window->paused)
         return;
     draw_cross(overlay, x, y, *view.looked_at || *view.carried);
-    draw_hint(window, overlay, &view, x, y + 3.0 * nook_overlay_letter_height(overlay));
     if (nook_live_help_shown(window->live) == NOOK_LIVE_HELP_NONE && !(window->controls.asks_for > 0.0))
-        draw_message(window, overlay, &view);
+        free_down_to = draw_message(window, overlay, &view);
+    draw_hint(window, overlay, &view, x, y + gap <= free_down_to ? y + gap : y - gap);
 }
 
 /* A slider, a choice or a box for each row of preferences.def. */

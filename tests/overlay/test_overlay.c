@@ -397,6 +397,28 @@ static void test_panels_are_kept_within_the_target_and_whole(void **state)
     }
 }
 
+static void test_wrapped_text_is_no_wider_than_a_panel_that_a_small_target_made_narrow(void **state)
+{
+    fixture *f = *state;
+    const nook_overlay_frame frame = { WIDTH - 120, HEIGHT, 1.0, 0.02, NULL };
+    double place[4];
+    for (int tall = 0; tall < 2; tall++) {
+        const nook_overlay_panel panel = { .title = "##narrow", .x = 10, .y = 10, .width = 26, .height = 6 };
+        for (int i = 0; i < 4; i++) {
+            nook_overlay_begin(f->overlay, &frame);
+            nook_overlay_panel_begin(f->overlay, &panel);
+            for (int line = 0; line < 20 * tall; line++)
+                nook_overlay_text(f->overlay, "more than there is room for"); /* so that it gets a scroll bar */
+            nook_overlay_text_wrapped(f->overlay, 24.0, "words that are to be read to the end of each of their lines");
+            nook_overlay_place(f->overlay, place);
+            nook_overlay_panel_end(f->overlay);
+            nook_overlay_end(f->overlay);
+        }
+        assert_true(place[0] >= 0.0 && place[0] + place[2] <= WIDTH - 120 - (tall ? 20 : 0));
+        assert_true(place[3] > 20.0); /* in lines */
+    }
+}
+
 static void test_panel_in_a_target_of_another_size_is_put_and_sized_as_at_first(void **state)
 {
     fixture *f = *state;
@@ -482,6 +504,7 @@ int main(void)
         TEST(test_denser_displays_get_larger_letters),
         TEST(test_lines_and_labels_lie_where_they_are_put),
         TEST(test_panels_are_kept_within_the_target_and_whole),
+        TEST(test_wrapped_text_is_no_wider_than_a_panel_that_a_small_target_made_narrow),
         TEST(test_panel_in_a_target_of_another_size_is_put_and_sized_as_at_first),
         TEST(test_lines_end_at_spaces_where_they_fit),
         TEST(test_frame_begun_twice_forgets_the_first),

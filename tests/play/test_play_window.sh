@@ -139,6 +139,17 @@ test_the_button_of_the_menu_that_begins_from_the_start_asks_first() {
 
 # has_letters COLOUR PART: inside of a letter a colour is whole.
 has_letters() { see seen && [ "$(convert "$tmp/seen.png" -crop "$2" +repage -fuzz 3% -fill black +opaque "$1" -format '%[fx:maxima > 0 ? 1 : 0]' info:)" = 1 ]; }
+hint_is_above() { has_letters 'rgb(255,255,255)' 60x14+130+51; } # the cross is in the middle
+hint_is_below() { has_letters 'rgb(255,255,255)' 60x14+130+135; }
+
+test_in_a_low_window_the_hint_stands_above_the_cross_as_long_as_a_message_is_below_it() {
+    export -f has_letters hint_is_above hint_is_below
+    in_game '
+        wait_for 30 hint_is_above
+        wait_for 60 not hint_is_above
+        wait_for 30 hint_is_below'
+}
+
 lists_its_own_keys() { has_letters 'rgb(255,214,120)' 130x230+0+60; } # beside the cross
 lists_keys_of_views() { has_letters 'rgb(255,180,60)' 400x240+0+60; }
 
