@@ -10,7 +10,7 @@ enum { PATH_SIZE = 1024 };
 
 struct nook_settings_reload {
     nook_file_watch *watch;
-    char path[PATH_SIZE], error[PATH_SIZE + 64];
+    char path[PATH_SIZE], error[PATH_SIZE];
     bool changed; /* in this poll */
 };
 
@@ -63,11 +63,10 @@ bool nook_settings_reload_poll(nook_settings_reload *reload, nook_settings_file 
     nook_file_watch_poll(reload->watch, look_for, reload);
     if (!reload->changed)
         return false;
-    reload->error[0] = '\0';
-    if (nook_settings_file_read(reload->path, out) == NOOK_OK)
-        return true;
-    snprintf(reload->error, sizeof reload->error, "%s cannot be used; the log says why", reload->path);
-    return false;
+    nook_log_keep_errors(reload->error, sizeof reload->error);
+    nook_result result = nook_settings_file_read(reload->path, out);
+    nook_log_keep_errors(NULL, 0);
+    return result == NOOK_OK;
 }
 
 const char *nook_settings_reload_error(const nook_settings_reload *reload)

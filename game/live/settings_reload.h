@@ -16,5 +16,5 @@ void nook_settings_reload_destroy(nook_settings_reload *reload); /**< NULL is al
 
 /** Once a frame. @param out  what the file says now; untouched otherwise @return true: it was saved and can be read */
 bool nook_settings_reload_poll(nook_settings_reload *reload, nook_settings_file *out);
-/** A line for the screen while the file, as it was saved last, cannot be read; "" else. */
+/** For the screen: what is wrong with the file as it was saved last, with its line; "" while it can be read. */
 const char *nook_settings_reload_error(const nook_settings_reload *reload);
