@@ -116,6 +116,15 @@ static const char *skip_separators(const char *at)
     return at;
 }
 
+/* Of what stands in a message, which is one line: no more than the word. */
+static int word_length(const char *at)
+{
+    int length = 0;
+    while (length < 16 && isgraph((unsigned char)at[length]) && at[length] != ',')
+        length++;
+    return length;
+}
+
 static nook_result decode_text(const char *name, nook_sample_type type, const uint8_t *stored, uint8_t *out,
                                size_t out_size)
 {
@@ -124,10 +133,12 @@ static nook_result decode_text(const char *name, nook_sample_type type, const ui
     size_t size = nook_sample_type_size(type), count = out_size / size;
     for (size_t i = 0; i < count; i++) {
         at = skip_separators(at);
+        if (*at == 0)
+            return fail_short(name, i * size, out_size);
         const char *stop = read_sample(at, type, out + i * size);
         if (!stop || (*stop != 0 && *stop != ',' && !isspace((unsigned char)*stop)))
-            return nook_fail(NOOK_E_FORMAT, "%s: sample %zu of %zu, '%.16s', is not a number of its type", name, i + 1,
-                             count, at);
+            return nook_fail(NOOK_E_FORMAT, "%s: sample %zu of %zu, '%.*s', is not a number of its type", name, i + 1,
+                             count, word_length(at), at);
         at = stop;
     }
     return NOOK_OK;

@@ -152,6 +152,19 @@ static void test_sizes_that_cannot_be_are_refused(void **state)
 #undef SIZES
 }
 
+static void test_text_that_is_no_number_is_named_in_one_line(void **state)
+{
+    (void)state;
+    static const char text[] = "1 2 3 four\n5 6 7 8", ends[] = "1 2 3 4 5            ";
+    nook_scalar_volume v;
+    nook_log_capture log;
+    assert_int_equal(load_text(GOOD "encoding: ascii\n\n", text, strlen(text), &v, &log), NOOK_E_FORMAT);
+    assert_int_equal(log.count, 1);
+    assert_non_null(strstr(log.text, "sample 4 of 8, 'four', is not a number"));
+    assert_int_equal(load_text(GOOD "encoding: ascii\n\n", ends, strlen(ends), &v, &log), NOOK_E_FORMAT);
+    assert_non_null(strstr(log.text, "cut short: 5 of 8"));
+}
+
 static void test_data_files_outside_the_folder_are_refused(void **state)
 {
     (void)state;
@@ -476,6 +489,7 @@ int main(void)
         cmocka_unit_test(test_space_directions_that_turn_are_warned_about),
         cmocka_unit_test(test_headers_that_cannot_be_are_refused),
         cmocka_unit_test(test_sizes_that_cannot_be_are_refused),
+        cmocka_unit_test(test_text_that_is_no_number_is_named_in_one_line),
         cmocka_unit_test(test_data_files_outside_the_folder_are_refused),
         cmocka_unit_test(test_every_shorter_file_is_refused),
         cmocka_unit_test(test_no_changed_byte_of_a_header_crashes),
