@@ -67,12 +67,6 @@ static int caption(page *p, const nook_sheet_row *row, int x, int y, bool draw)
     return wrap_text(p, size_small, line_small, x, y + 8, CAPTION_WIDTH, soft_ink, row->parameters, draw);
 }
 
-static int row_height(page *p, const nook_sheet_row *row)
-{
-    int text = caption(p, row, 0, 0, false);
-    return text > p->panel_height ? text : p->panel_height;
-}
-
 static int column_x(const page *p, int column)
 {
     return MARGIN + CAPTION_WIDTH + GAP * 2 + column * (p->cell_width + GAP);
@@ -117,30 +111,49 @@ static void draw_centred(page *p, int centre, int y, const char *text)
     nook_text_draw(&p->picture, p->regular, size_small, centre - width / 2, y, ink, text);
 }
 
-/* The colour scale with its numbers, where the reference's own error would stand. */
-static void draw_scale(page *p, int y)
+static void draw_numbers(page *p, int x, int y, int width)
 {
-    int x = column_x(p, 2), inset = 24, width = p->cell_width - 2 * inset;
-    y = wrap_text(p, size_small, line_small, x + inset, y, width, soft_ink,
-                  "Error of visibility: technique minus reference, on pixels with geometry.", true);
-    y += GAP;
-    nook_error_scale_draw(&p->picture, x + inset, y, width, SCALE_BAR_HEIGHT, frame);
-    y += SCALE_BAR_HEIGHT + 3;
     for (int i = -2; i <= 2; i++) {
         char number[32];
-        int centre = x + inset + width * (i + 2) / 4;
+        int centre = x + width * (i + 2) / 4;
         nook_picture_fill(&p->picture, centre, y - 3, 1, 5, frame);
         snprintf(number, sizeof number, i ? "%+.3g" : "0", (double)p->sheet->error_range * i / 2.0);
         draw_centred(p, centre, y + 4, number);
     }
-    y += line_small + 8;
-    nook_text_draw(&p->picture, p->regular, size_small, x + inset, y, soft_ink, "too dark");
+}
+
+/* The colour scale with its numbers, where the reference's own error would stand; with draw == false it only measures.
+   @return the y below it */
+static int colour_scale(page *p, int y, bool draw)
+{
+    int x = column_x(p, 2), inset = 24, width = p->cell_width - 2 * inset;
+    y = wrap_text(p, size_small, line_small, x + inset, y, width, soft_ink,
+                  "Error of visibility: technique minus reference, on pixels with geometry.", draw);
+    y += GAP;
+    if (draw) {
+        nook_error_scale_draw(&p->picture, x + inset, y, width, SCALE_BAR_HEIGHT, frame);
+        draw_numbers(p, x + inset, y + SCALE_BAR_HEIGHT + 3, width);
+    }
+    y += SCALE_BAR_HEIGHT + 3 + line_small + 8;
     const char *bright = "too bright";
-    nook_text_draw(&p->picture, p->regular, size_small,
-                   x + inset + width - nook_text_width(p->regular, size_small, bright), y, soft_ink, bright);
+    if (draw) {
+        nook_text_draw(&p->picture, p->regular, size_small, x + inset, y, soft_ink, "too dark");
+        nook_text_draw(&p->picture, p->regular, size_small,
+                       x + inset + width - nook_text_width(p->regular, size_small, bright), y, soft_ink, bright);
+    }
     y += line_small + GAP;
-    nook_picture_fill(&p->picture, x + inset, y + 2, 14, 14, nook_error_no_geometry());
-    nook_text_draw(&p->picture, p->regular, size_small, x + inset + 22, y, soft_ink, "no geometry");
+    if (draw) {
+        nook_picture_fill(&p->picture, x + inset, y + 2, 14, 14, nook_error_no_geometry());
+        nook_text_draw(&p->picture, p->regular, size_small, x + inset + 22, y, soft_ink, "no geometry");
+    }
+    return y + line_small;
+}
+
+static int row_height(page *p, const nook_sheet_row *row)
+{
+    int text = caption(p, row, 0, 0, false), scale = row->error ? 0 : colour_scale(p, 0, false);
+    int height = text > scale ? text : scale;
+    return height > p->panel_height ? height : p->panel_height;
 }
 
 static void draw_header(page *p)
@@ -167,7 +180,7 @@ static nook_result draw_row(page *p, const nook_sheet_row *row, int y)
     if (result == NOOK_OK && row->error)
         result = draw_panel(p, row->error, 2, y);
     if (!row->error)
-        draw_scale(p, y);
+        colour_scale(p, y, true);
     return result;
 }
 

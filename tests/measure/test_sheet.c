@@ -187,6 +187,29 @@ static void test_sheet_shrinks_large_pictures_and_takes_tiny_ones(void **state)
     free_panels(&tiny);
 }
 
+static void test_sheet_keeps_the_colour_scale_above_the_next_row(void **state)
+{
+    (void)state;
+    nook_font_destroy(load_font());
+    panels small = make_panels(96, 54);
+    nook_picture sheet = draw_sheet(&small, 2);
+    nook_rgb grey = nook_error_no_geometry(), blue = { 10, 20, 250 };
+    uint32_t legend_end = 0, error_begin = 0;
+    for (uint32_t y = 0; y < sheet.height; y++) {
+        for (uint32_t x = 0; x < sheet.width; x++) {
+            const nook_rgb *pixel = &sheet.pixels[(size_t)y * sheet.width + x];
+            if (memcmp(pixel, &grey, sizeof grey) == 0)
+                legend_end = y + 1;
+            if (!error_begin && memcmp(pixel, &blue, sizeof blue) == 0)
+                error_begin = y;
+        }
+    }
+    assert_true(legend_end > 0);
+    assert_true(legend_end + 14 < error_begin); /* the line between rows has room too */
+    nook_picture_free(&sheet);
+    free_panels(&small);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -197,6 +220,7 @@ int main(void)
         cmocka_unit_test(test_sheet_shows_every_panel_whole),
         cmocka_unit_test(test_sheet_grows_by_one_row_at_a_time),
         cmocka_unit_test(test_sheet_shrinks_large_pictures_and_takes_tiny_ones),
+        cmocka_unit_test(test_sheet_keeps_the_colour_scale_above_the_next_row),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
