@@ -65,11 +65,13 @@ nook_result nook_live_picture(nook_live *live, uint32_t width, uint32_t height, 
 
 /**
  * From now on every frame that is drawn goes into a folder of PNG files, or into a video, with the overlay over it. When it fails
- * later it ends, with a line in the log.
+ * later it ends, with a line in the log; frames go on.
  * @param desc  game/live/capture.h; a size of 0: the window's as it is now @return as nook_capture_open
  */
 nook_result nook_live_capture(nook_live *live, const nook_capture_desc *desc);
-/** Ends it; waits until a video is whole. @return NOOK_E_IO */
+/** Whether it has ended so. */
+bool nook_live_capture_failed(const nook_live *live);
+/** Ends it; waits until a video is whole. @return NOOK_E_IO, also when it had failed before */
 nook_result nook_live_capture_end(nook_live *live);
 
 /**

@@ -134,6 +134,7 @@ struct nook_live {
     bool picture_asked;                           /**< F12 was pressed. */
     uint32_t picture_number;                      /**< Of the last picture. */
     nook_capture *capture;                        /**< NULL: none. */
+    bool capture_failed;                          /**< The last one ended before it was asked to. */
     uint8_t *captured;                            /**< A picture of capture_size, RGB. Owned. */
     uint32_t capture_size[2];
     live_targets targets;

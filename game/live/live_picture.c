@@ -184,6 +184,15 @@ void live_picture_by_key(nook_live *live)
 
 /* ---- Of every frame ----------------------------------------------------------------------------------------------- */
 
+static nook_result close_capture(nook_live *live)
+{
+    nook_result result = nook_capture_close(live->capture);
+    free(live->captured);
+    live->capture = NULL;
+    live->captured = NULL;
+    return result;
+}
+
 nook_result nook_live_capture(nook_live *live, const nook_capture_desc *desc)
 {
     nook_live_capture_end(live);
@@ -203,11 +212,15 @@ nook_result nook_live_capture(nook_live *live, const nook_capture_desc *desc)
 
 nook_result nook_live_capture_end(nook_live *live)
 {
-    nook_result result = nook_capture_close(live->capture);
-    free(live->captured);
-    live->capture = NULL;
-    live->captured = NULL;
-    return result;
+    nook_result result = live->capture_failed ? NOOK_E_IO : NOOK_OK;
+    live->capture_failed = false;
+    nook_result closed = close_capture(live);
+    return result == NOOK_OK ? closed : result;
+}
+
+bool nook_live_capture_failed(const nook_live *live)
+{
+    return live->capture_failed;
 }
 
 void live_capture_frame(nook_live *live)
@@ -219,6 +232,7 @@ void live_capture_frame(nook_live *live)
         result = nook_capture_add(live->capture, live->captured);
     if (result == NOOK_OK)
         return;
-    nook_live_capture_end(live);
+    close_capture(live);
+    live->capture_failed = true;
     live_note(live, "capturing has ended; the log says why");
 }

@@ -336,6 +336,8 @@ nook_result nook_play_window_frame(nook_play_window *w, bool *out_goes_on)
     if (result == NOOK_OK && !hidden)
         result = draw(w);
     nook_play_tell(w);
+    if (!w->has_window && nook_live_capture_failed(w->live))
+        w->quit = true; /* nobody would see what comes */
     if (w->frames_left > 0 && --w->frames_left == 0)
         w->quit = true;
     *out_goes_on = result == NOOK_OK && !w->quit && !has_run_out(w);

@@ -82,12 +82,35 @@ static void test_captured_frames_are_what_is_seen(void **state)
     assert_false(nook_file_exists(png));
 }
 
+static void test_capture_that_fails_is_said_once_and_tells_so_at_its_end(void **state)
+{
+    live_room *room = *state;
+    char folder[4096], taken[4200];
+    nook_log_capture log;
+    nook_scratch_path(folder, sizeof folder, "capture_fails");
+    snprintf(taken, sizeof taken, "%s/frame_000002.png", folder);
+    assert_int_equal(nook_directory_make(taken), NOOK_OK); /* where the second picture should go */
+    assert_int_equal(nook_live_capture(room->live, &(nook_capture_desc){ .path = folder }), NOOK_OK);
+    nook_log_capture_begin(&log);
+    live_room_press(room, NOOK_KEY_2);
+    assert_false(nook_live_capture_failed(room->live));
+    live_room_press(room, NOOK_KEY_1);
+    assert_true(nook_live_capture_failed(room->live));
+    live_room_press(room, NOOK_KEY_2); /* frames go on */
+    nook_log_capture_end();
+    assert_int_equal(log.count, 1);
+    assert_non_null(strstr(log.text, "frame_000002.png"));
+    assert_int_equal(nook_live_capture_end(room->live), NOOK_E_IO);
+    assert_int_equal(nook_live_capture_end(room->live), NOOK_OK); /* of none */
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         LIVE_ROOM_TEST(test_key_writes_a_picture_and_what_made_it),
         LIVE_ROOM_TEST(test_picture_that_cannot_be_written_is_said_and_the_frames_go_on),
         LIVE_ROOM_TEST(test_captured_frames_are_what_is_seen),
+        LIVE_ROOM_TEST(test_capture_that_fails_is_said_once_and_tells_so_at_its_end),
     };
     return cmocka_run_group_tests(tests, live_room_open, live_room_close);
 }

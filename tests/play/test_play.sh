@@ -130,6 +130,15 @@ test_headless_captures_pictures_without_a_display_and_ends_in_the_same_state() {
     [ "$(find "$tmp/pictures" -name 'frame_*.png' | wc -l)" -eq 15 ] # of 1/30 s
 }
 
+test_headless_ends_and_fails_when_a_picture_cannot_be_written() {
+    printf 'nook recording 1\nlevel %s\nseed 1\n30 0 127 0 20 -50\n' tests/play/data/crate.level >"$tmp/short.replay"
+    mkdir -p "$tmp/taken/frame_000002.png" # a folder
+    assert_holds "$(assert_fails 1 play --replay "$tmp/short.replay" --capture "$tmp/taken" --size 64x36 --cache "$tmp/cache")" \
+        "taken/frame_000002.png: "
+    [ -e "$tmp/taken/frame_000001.png" ]
+    [ ! -e "$tmp/taken/frame_000003.png" ]
+}
+
 test_a_picture_of_what_stands_still_stands_still() {
     printf 'nook recording 1\nlevel %s\nseed 1\n30 0 0 0 0 0\n' tests/play/data/crate.level >"$tmp/still.replay"
     play --replay "$tmp/still.replay" --capture "$tmp/still" --size 160x90 --cache "$tmp/cache" >/dev/null
