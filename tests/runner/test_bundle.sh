@@ -72,4 +72,17 @@ test_a_bundle_is_replaced_by_a_new_one() {
     alone version | grep -q '^nook '
 }
 
+test_a_bundle_that_cannot_be_written_is_refused_in_one_line() {
+    local said
+    only_in_release
+    echo mine >"$tmp/file"
+    said=$(assert_fails 1 ./nook bundle "$tmp/file/bundle")
+    [ "$said" = "nook: bundle: $(realpath "$tmp")/file/bundle cannot be made (Not a directory); name another folder" ]
+    mkdir -p "$tmp/blocked/.nook_bundle" # a folder where the mark belongs
+    said=$(assert_fails 1 ./nook bundle "$tmp/blocked" | grep -v 'waiting for another') # that builds
+    [ "$said" = "nook: bundle: $(realpath "$tmp")/blocked cannot be written (Is a directory); make room there or name another folder" ]
+    [ ! -e "$tmp/blocked/nook" ]
+    assert_holds "$(assert_fails 2 ./nook bundle '')" "bundle: '': give a folder"
+}
+
 run_tests
