@@ -56,6 +56,14 @@ test_what_does_not_compile_is_told_with_file_and_line_and_the_library_stays() {
     [[ $(tail -n +2 $live/build) != ../* ]]
 }
 
+test_what_does_not_compile_is_told_in_ascii_whatever_language_the_user_has() {
+    new_tree
+    write_answer undeclared_name
+    LC_ALL=C.UTF-8 assert_fails 1 ./nook watch --once >/dev/null
+    assert_holds "$(cat $live/build)" "'undeclared_name'"
+    not env LC_ALL=C grep -q '[^ -~]' $live/build
+}
+
 wait_until() { # COMMAND...
     for _ in {1..300}; do
         if "$@"; then return 0; fi
