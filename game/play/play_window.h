@@ -77,8 +77,8 @@ typedef struct nook_play_window {
     nook_picture_time picture_time;
     bool went_on; /**< The last frame had ticks and was drawn. */
     nook_frame_pacing pacing;
-    char trouble
-        [1024]; /**< Yours to set: what is wrong with code that was to be loaded; stands on the screen. "": nothing. */
+    /** Yours to set: what is wrong with code that was to be loaded; stands on the screen. "": nothing. */
+    char trouble[1024];
     nook_play_told told;  /**< What the log and the title have said last. */
     uint32_t frames_left; /**< 0: no end. */
     bool captures;        /**< Every frame goes into a file. */

@@ -68,9 +68,9 @@ enum { NOOK_AO_COUNTS_FETCHES, NOOK_AO_COUNTS_STEPS };
 
 typedef struct nook_ao_frame {
     double view_from_world[16]; /**< Rigid: to 1e-5. */
-    double clip_from_view
-        [16]; /**< Perspective, depth in [0, 1]; normal or reversed-Z is told from it. Only elements 0, 5, 8, 9, 10
-                                     and 14 may be anything: no oblique near planes. */
+    /** Perspective, depth in [0, 1]; normal or reversed-Z is told from it. Only elements 0, 5, 8, 9, 10 and 14 may be anything: no
+        oblique near planes. */
+    double clip_from_view[16];
     nook_ao_texture depth;  /**< Required. Device depth at full size, row 0 at the bottom. */
     nook_ao_texture normal; /**< World space, octahedral RG (shaders/nook/octahedral.glsl). None: rebuilt from depth.
                                  Give the geometric normal: rays below the true surface are nobody's occlusion. */
@@ -150,8 +150,8 @@ typedef struct nook_ao_triangle_range {
 
 /** A texture with holes: a point is there where the factor times the alpha of the nearest texel, repeated, is at least the cutoff. */
 typedef struct nook_ao_live_mask {
-    uint32_t
-        texture; /**< GL name, 2D, of which level 0 is looked at, its first row at v = 0; 0: it has none, and all is there. */
+    /** GL name, 2D, of which level 0 is looked at, its first row at v = 0; 0: it has none, and all is there. */
+    uint32_t texture;
     float factor, cutoff;
 } nook_ao_live_mask;
 
@@ -171,10 +171,8 @@ typedef struct nook_ao_live_mesh {
     uint32_t part_count;
     const nook_ao_live_mask *masks; /**< Of the ranges; NULL: none has one. */
     uint32_t uv_offset; /**< Of ranges with a mask: bytes from a vertex to its place on the texture, two floats. */
-    float box_min[3],
-        box_max
-            [3]; /**< Of all of them, the volume's space. What leaves the volume's room darkens nothing; nor does anything
-                         where a box is not finite. */
+    /** Of all of them, the volume's space. What leaves the volume's room darkens nothing; nor does anything where a box is not finite. */
+    float box_min[3], box_max[3];
     double voxel_size; /**< Metres, > 0. */
 } nook_ao_live_mesh;
 

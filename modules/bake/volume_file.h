@@ -48,12 +48,12 @@ typedef struct nook_volume_info {
 
 /** 4 x 4 x 4 voxels. Layout of the GPU's: RGBA32UI. */
 typedef struct nook_brick {
-    uint32_t mask
-        [2]; /**< Voxels that have a surfel: bits of nook_brick_bit (modules/bake/brick_grid.h), the low word first. */
+    /** Voxels that have a surfel: bits of nook_brick_bit (modules/bake/brick_grid.h), the low word first. */
+    uint32_t mask[2];
     uint32_t first_surfel; /**< Of its voxels, in the order of their bits. */
-    uint32_t
-        skip; /**< Chebyshev distance in bricks to the nearest one that has a surfel; 0: this one has. At most the grid's
-                        longest side: then there is none. */
+    /** Chebyshev distance in bricks to the nearest one that has a surfel; 0: this one has. At most the grid's longest side: then there
+        is none. */
+    uint32_t skip;
 } nook_brick;
 
 /** What lies in a voxel: two words of modules/bake/surfel_word.h; the second may be 0. Layout of the GPU's: RG32UI. */
