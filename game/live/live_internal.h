@@ -132,9 +132,9 @@ struct nook_live {
     uint32_t frame_width, frame_height;           /**< Of the stage when the G-buffer was drawn; 0: never. */
     nook_camera camera;                           /**< Of the G-buffer. */
     bool picture_asked;                           /**< F12 was pressed. */
+    bool capture_failed;                          /**< The last one ended before it was asked to. */
     uint32_t picture_number;                      /**< Of the last picture. */
     nook_capture *capture;                        /**< NULL: none. */
-    bool capture_failed;                          /**< The last one ended before it was asked to. */
     uint8_t *captured;                            /**< A picture of capture_size, RGB. Owned. */
     uint32_t capture_size[2];
     live_targets targets;
