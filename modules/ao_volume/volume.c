@@ -163,11 +163,17 @@ static uint32_t reads_bins(const void *params)
     return p->path != PATH_RASTER;
 }
 
+/** Boxes that are drawn blend, and a list of points is multiplied as they are. */
+static int multiplies(const volume_params *p)
+{
+    return p->combine == COMBINE_MULTIPLY || p->path == PATH_RASTER;
+}
+
 static volume_task make_task(const volume_params *p, const nook_ao_pass *pass)
 {
     uint32_t out = p->guard == GUARD_SEEN ? VOLUME_TURNS_OUT : 0; /* once for all rays, but they may be in parts */
-    const volume_work work = { (uint32_t)p->rays, (uint32_t)p->steps + out, pass->occluder_count,
-                               p->combine == COMBINE_MULTIPLY || p->path == PATH_RASTER, pass->occluders_tested };
+    const volume_work work = { (uint32_t)p->rays, (uint32_t)p->steps + out, pass->occluder_count, multiplies(p),
+                               pass->occluders_tested };
     volume_task task = { .usual = work, .most = work, .kept_format = GL_R32F };
     if (p->kind != NOOK_VOLUME_BINARY) {
         task.most.steps = VOLUME_TURNS_PER_VOXEL * pass->line_max;
@@ -213,15 +219,16 @@ static nook_result choose_program(volume_state *s, const volume_params *p, const
         [NOOK_VOLUME_SURFEL] = "shaders/ao/surfel.frag.glsl",
         [NOOK_VOLUME_DISTANCE] = "shaders/ao/distance.frag.glsl",
     };
-    char defines[96];
+    char defines[128];
     int corners = p->kind == NOOK_VOLUME_BINARY && p->sampling == SAMPLING_CORNERS;
     nook_result result = corners ? volume_corners_fit(&s->corners, pass) : NOOK_OK;
     if (result != NOOK_OK)
         return result;
     if (corners)
         nook_bind_texture(pass->gpu, BINDING_CORNERS, s->corners.texture);
-    snprintf(defines, sizeof defines, "%s%s%s%s", corners ? "#define CORNERS\n" : "",
-             pass->tiles ? "#define TILES\n" : "", pass->bins ? "#define BINNED\n" : "", nook_ao_pass_defines(pass));
+    snprintf(defines, sizeof defines, "%s%s%s%s%s", corners ? "#define CORNERS\n" : "",
+             multiplies(p) ? "#define MULTIPLY\n" : "", pass->tiles ? "#define TILES\n" : "",
+             pass->bins ? "#define BINNED\n" : "", nook_ao_pass_defines(pass));
     if (is_drawn(p, pass))
         return nook_program_raster(pass->gpu, "shaders/ao/volume_box.vert.glsl", drawn[p->kind], defines, out_program);
     return nook_program_compute(pass->gpu, computed[p->kind], defines, out_program);

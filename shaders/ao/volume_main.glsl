@@ -1,6 +1,7 @@
 #pragma once
 // main() of the technique "volume" with path = compute: see volume_pass.glsl. Beside the kind it takes
 //   float sum_union(float sum, bool inside, vec3 position, vec3 normal, ivec2 pixel)
+// or, with MULTIPLY defined, nothing more. Not a branch: a program with both takes twice as long to compile.
 #include "ao/volume_factor.glsl"
 #include "ao/tile_list.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -10,6 +11,9 @@ layout(binding = 0, r32f) uniform image2D visibility_image;
 layout(std430, binding = 5) buffer Again {
     uint groups_x, groups_y, groups_z;
 } again;
+
+#ifdef MULTIPLY
+const bool multiply = true;
 
 // The paper's: product of the volumes' visibilities; darkens where volumes overlap, lights where they do not (C5). `visibility` is
 // that of earlier parts. A part that does not hold all rays holds one occluder only.
@@ -28,6 +32,9 @@ float multiply_visibilities(float visibility, bool inside, vec3 position, vec3 n
     }
     return visibility;
 }
+#else
+const bool multiply = false;
+#endif
 
 // Has llvmpipe ended this invocation's loops? It lets each go on for one turn then; here is one that wants two, in a number that
 // compilers do not know, or they would unroll it.
@@ -42,7 +49,7 @@ bool loops_were_ended()
 void main()
 {
     Point point = point_of_invocation();
-    bool on_image = point.wanted, multiply = params.combine == COMBINE_MULTIPLY || params.path != PATH_COMPUTE; // a list is traced here in any case
+    bool on_image = point.wanted;
     float depth = point.depth;
     place = point.place;
     // Between parts the image holds the product so far, or the sum of rho so far.
@@ -50,10 +57,11 @@ void main()
     float result = is_first || !on_image ? (multiply ? 1.0 : 0.0) : imageLoad(visibility_image, place).r;
     if (tile_begin(depth, point.position)) {
         vec3 normal = normal_of(point);
-        if (multiply)
-            result = multiply_visibilities(result, depth > 0.0, point.position, normal, point.pixel);
-        else
-            result = sum_union(result, depth > 0.0, point.position, normal, point.pixel);
+#ifdef MULTIPLY
+        result = multiply_visibilities(result, depth > 0.0, point.position, normal, point.pixel);
+#else
+        result = sum_union(result, depth > 0.0, point.position, normal, point.pixel);
+#endif
         if (loops_were_ended()) {
             again.groups_x = gl_NumWorkGroups.x;
             again.groups_y = gl_NumWorkGroups.y;

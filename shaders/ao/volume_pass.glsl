@@ -25,9 +25,6 @@ layout(location = 1) uniform int occluder_count; // of all parts
 
 ivec2 place; // of this invocation's point in the images that are written
 
-const int COMBINE_MULTIPLY = 0;
-const int PATH_COMPUTE = 0;
-
 // A straight line crosses no more voxels of a volume than this.
 int line_voxels(ivec3 size)
 {
