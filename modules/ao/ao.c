@@ -58,6 +58,8 @@ static void create_sampler(nook_ao *ao)
     gl->SamplerParameteri(ao->nearest_sampler, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     gl->SamplerParameteri(ao->nearest_sampler, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     gl->SamplerParameteri(ao->nearest_sampler, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    /* As our textures have it: llvmpipe compiles a program again when it is run after another sampler, even if it reads nothing of it. */
+    gl->SamplerParameteri(ao->nearest_sampler, GL_TEXTURE_WRAP_R, GL_CLAMP_TO_EDGE);
 }
 
 nook_result nook_ao_create(const nook_ao_desc *desc, nook_ao **out_ao)

@@ -18,9 +18,8 @@ typedef struct frame_block {
     float filter_normal;
     float depth_to_distance[2];
     float depth_background;
-    int32_t filter_kind;
     int32_t bins_across;
-    int32_t padding;           /**< A vec4 starts at a multiple of 16 bytes. */
+    int32_t padding[2];        /**< A vec4 starts at a multiple of 16 bytes. */
     float view_from_world[12]; /**< Three columns of four. */
     int32_t origin[2];         /**< Trace pixel of a dispatch's first invocation. */
     int32_t begin[2], end[2];  /**< Trace pixels that are wanted. */

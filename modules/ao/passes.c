@@ -80,6 +80,13 @@ nook_result ao_fill_inputs(nook_ao *ao, const nook_ao_frame *frame)
     return result;
 }
 
+/** Of filter.comp.glsl and refine_filter.comp.glsl. Not a branch of theirs: a software driver would compile all three. */
+static const char *filter_define(const nook_ao *ao)
+{
+    static const char *const defines[] = { "", "#define DISC\n", "#define TILE\n" }; /* in the order of ao.filter */
+    return defines[ao->shared.filter];
+}
+
 /** What filter.comp.glsl binds. */
 static void bind_filter(nook_ao *ao, nook_texture out)
 {
@@ -104,7 +111,7 @@ static nook_result dispatch_full(nook_ao *ao, const char *path, const char *defi
 nook_result ao_filter(nook_ao *ao)
 {
     bind_filter(ao, ao->targets.visibility);
-    return dispatch_full(ao, "shaders/ao/filter.comp.glsl", "");
+    return dispatch_full(ao, "shaders/ao/filter.comp.glsl", filter_define(ao));
 }
 
 /** Blocks of scale x scale pixels, from half a trace pixel on, that hold pixels begin to end - 1 of an axis: shaders/ao/upscale.comp.glsl. */
@@ -156,12 +163,13 @@ nook_result ao_filter_trace(nook_ao *ao)
     nook_result result = ao_trace_fit_filtered(ao->gpu, trace);
     if (result != NOOK_OK)
         return result;
+    char defines[64];
+    snprintf(defines, sizeof defines, "#define AT_TRACE\n%s%s", ao->supporting ? "#define SUPPORT\n" : "",
+             filter_define(ao));
     bind_filter(ao, trace->filtered);
     if (ao->supporting)
         ao_refine_begin(ao->gpu, &ao->refine);
-    return ao_dispatch_over(ao, "shaders/ao/filter.comp.glsl",
-                            ao->supporting ? "#define AT_TRACE\n#define SUPPORT\n" : "#define AT_TRACE\n",
-                            (uint32_t)(region->end[0] - region->begin[0]),
+    return ao_dispatch_over(ao, "shaders/ao/filter.comp.glsl", defines, (uint32_t)(region->end[0] - region->begin[0]),
                             (uint32_t)(region->end[1] - region->begin[1]));
 }
 
@@ -209,7 +217,8 @@ nook_result ao_refine_finish(nook_ao *ao)
     ao_refine_bind(ao->gpu, &ao->refine); /* the technique may have bound others */
     nook_bind_image(ao->gpu, 0, ao->targets.visibility, GL_READ_WRITE);
     nook_bind_image(ao->gpu, 1, ao->refine.traced, GL_READ_ONLY);
-    nook_result result = dispatch_listed(ao, "shaders/ao/refine_filter.comp.glsl", "", ao->refine.listed);
+    nook_result result =
+        dispatch_listed(ao, "shaders/ao/refine_filter.comp.glsl", filter_define(ao), ao->refine.listed);
     if (result == NOOK_OK)
         result = dispatch_listed(ao, "shaders/ao/refine_scatter.comp.glsl", "", ao->refine.listed);
     return result;

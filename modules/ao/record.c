@@ -115,7 +115,6 @@ static frame_block make_block(const nook_ao *ao, const nook_ao_frame *frame, int
         .filter_depth = shared->filter_depth,
         .filter_normal = shared->filter_normal,
         .has_normal = frame->normal.native != 0,
-        .filter_kind = shared->filter,
         .bins_across = (int32_t)ao->bins.across,
         .refine_weight = shared->refine_weight,
         .refine_reach = shared->refine_reach,
@@ -218,6 +217,7 @@ static nook_ao_pass make_pass(nook_ao *ao, const nook_ao_frame *frame, uint32_t 
         .ray_scale = { projection.ray_scale[0], projection.ray_scale[1] },
         .ray_offset = { projection.ray_offset[0], projection.ray_offset[1] },
         .view_from_world = view_from_world,
+        .lists = ao->supporting || ao->refining == AO_REFINING_TRACED,
         .seed = frame->index,
         .progress = ao->progress,
         .progress_user = ao->progress_user,
@@ -288,7 +288,8 @@ nook_result ao_begin(nook_ao *ao, const nook_ao_frame *frame, const ao_work *wor
         ao->gpu->gl->BindSampler(unit, 0); /* the host's would change how our textures are sampled */
     result = ao_targets_fit(ao->gpu, &ao->targets, ao->width, ao->height, ao->scale);
     if (result == NOOK_OK && (work->refining || work->supporting))
-        result = ao_refine_fit(ao->gpu, &ao->refine, ao->width, ao->height, (double)ao->shared.refine_share);
+        result = ao_refine_fit(ao->gpu, &ao->refine, ao->width, ao->height, 1u << ao->scale,
+                               (double)ao->shared.refine_share);
     if (result == NOOK_OK)
         result = upload_inputs(ao, frame, work);
     if (result == NOOK_OK)
@@ -349,8 +350,7 @@ static nook_result trace(nook_ao *ao, const nook_ao_frame *frame, const ao_slot 
 static nook_result trace_listed(nook_ao *ao, const ao_slot *slot, nook_ao_pass *pass)
 {
     pass->listed = &ao->refine.listed;
-    pass->tiles = NULL;
-    pass->bins = NULL, pass->occluders_tested = pass->occluder_count; /* its groups are no tiles of the picture */
+    pass->occluders_tested = pass->occluder_count; /* its groups are no tiles of the picture, and read no bins */
     pass->visibility = ao->refine.traced;
     pass->width = ao->refine.traced.width, pass->height = ao->refine.traced.height;
     bind_pass(pass);

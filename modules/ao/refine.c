@@ -1,6 +1,7 @@
 /* Pixels that no pixel of the trace stands for, traced by themselves: docs/techniques.md "Refinement". */
 #include "modules/ao/refine_internal.h"
 #include <math.h>
+#include <stdbool.h>
 
 enum {
     GROUP = 64, /* REFINE_GROUP of shaders/ao/refine.glsl */
@@ -39,10 +40,27 @@ static uint32_t capacity_of(const nook_gpu *gpu, uint32_t pixels, double share)
     return (rows < gpu->max_texture_size ? rows : gpu->max_texture_size) * GROUP;
 }
 
-nook_result ao_refine_fit(nook_gpu *gpu, ao_refine *refine, uint32_t width, uint32_t height, double share)
+static bool is_power_of_two(uint32_t n)
+{
+    return (n & (n - 1)) == 0;
+}
+
+/** At least `side`, and a power of two where that of the trace is one: llvmpipe compiles a program again for images that are, or are not. */
+static uint32_t side_like(const nook_gpu *gpu, uint32_t side, uint32_t traced)
+{
+    while (is_power_of_two(side) != is_power_of_two(traced) && side < gpu->max_texture_size)
+        side++;
+    return side;
+}
+
+nook_result ao_refine_fit(nook_gpu *gpu, ao_refine *refine, uint32_t width, uint32_t height, uint32_t scale,
+                          double share)
 {
     uint32_t pixels = width * height, capacity = capacity_of(gpu, pixels, share);
-    if (refine->pixels == pixels && refine->capacity == capacity)
+    uint32_t traced_width = side_like(gpu, GROUP, nook_groups(width, scale));
+    uint32_t traced_height = side_like(gpu, rows_of(capacity), nook_groups(height, scale));
+    if (refine->pixels == pixels && refine->capacity == capacity && refine->traced.width == traced_width &&
+        refine->traced.height == traced_height)
         return NOOK_OK;
     ao_refine_release(gpu, refine);
     nook_result result =
@@ -50,7 +68,7 @@ nook_result ao_refine_fit(nook_gpu *gpu, ao_refine *refine, uint32_t width, uint
     if (result == NOOK_OK)
         result = nook_buffer_create(gpu, NULL, sizeof(listed_head) + (size_t)capacity * RECORD_BYTES, &refine->listed);
     if (result == NOOK_OK)
-        result = nook_texture_create_2d(gpu, GL_R32F, GROUP, rows_of(capacity), GL_NEAREST, &refine->traced);
+        result = nook_texture_create_2d(gpu, GL_R32F, traced_width, traced_height, GL_NEAREST, &refine->traced);
     if (result == NOOK_OK)
         refine->pixels = pixels, refine->capacity = capacity;
     else
@@ -60,7 +78,8 @@ nook_result ao_refine_fit(nook_gpu *gpu, ao_refine *refine, uint32_t width, uint
 
 uint64_t ao_refine_bytes(const ao_refine *refine)
 {
-    return (uint64_t)refine->candidates.size + refine->listed.size + (uint64_t)refine->capacity * sizeof(float);
+    const uint64_t texels = (uint64_t)refine->traced.width * refine->traced.height;
+    return (uint64_t)refine->candidates.size + refine->listed.size + texels * sizeof(float);
 }
 
 void ao_refine_begin(nook_gpu *gpu, const ao_refine *refine)

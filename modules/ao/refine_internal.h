@@ -11,7 +11,7 @@
 typedef struct ao_refine {
     nook_buffer candidates; /**< Groups x, y, z of a dispatch over them, how many, what they lack, and the pixels. */
     nook_buffer listed;     /**< Groups, how many, how many at most, and a record each. */
-    nook_texture traced;    /**< R32F, visibility of one record each, 64 in a row. */
+    nook_texture traced;    /**< R32F, visibility of one record each, 64 in a row, and maybe more that nobody uses. */
     uint32_t pixels;        /**< Room for candidates; 0 before there is any. */
     uint32_t capacity;      /**< Room for records. */
 } ao_refine;
@@ -19,9 +19,11 @@ typedef struct ao_refine {
 /**
  * Makes the lists fit a picture; keeps them when they do.
  * @param share  of the pixels that are refined at most, in (0, 1]; and no more than 64 * gpu->max_texture_size
+ * @param scale  pixels of the picture along a side of one of the trace
  * @return NOOK_E_MEMORY
  */
-nook_result ao_refine_fit(nook_gpu *gpu, ao_refine *refine, uint32_t width, uint32_t height, double share);
+nook_result ao_refine_fit(nook_gpu *gpu, ao_refine *refine, uint32_t width, uint32_t height, uint32_t scale,
+                          double share);
 void ao_refine_release(nook_gpu *gpu, ao_refine *refine);
 uint64_t ao_refine_bytes(const ao_refine *refine); /**< On the GPU. */
 /** Empties the lists and binds them. */

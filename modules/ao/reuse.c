@@ -2,6 +2,7 @@
 #include "modules/ao/ao_internal.h"
 #include "modules/ao/reuse_internal.h"
 #include <stddef.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -233,6 +234,14 @@ static void upload_moved(const nook_ao *ao)
         nook_buffer_update(ao->gpu, reuse->moved_buffer, size, reuse->boxes, box_count * sizeof *reuse->boxes);
 }
 
+static nook_result choose_program(const nook_ao *ao, const nook_ao_pass *pass, nook_program *out_program)
+{
+    char defines[64];
+    snprintf(defines, sizeof defines, "%s%s", ao->shared.reuse_error > 0.0f ? "#define BOUNDED\n" : "",
+             nook_ao_pass_defines(pass, 0));
+    return nook_program_compute(ao->gpu, "shaders/ao/reuse.comp.glsl", defines, out_program);
+}
+
 static nook_result dispatch(nook_ao *ao, const nook_ao_frame *frame, const nook_ao_pass *pass)
 {
     static const tiles_head nothing = { .groups = { 0, 0, 1 } };
@@ -242,7 +251,14 @@ static nook_result dispatch(nook_ao *ao, const nook_ao_frame *frame, const nook_
     nook_buffer_update(ao->gpu, reuse->tiles, 0, &nothing, sizeof nothing);
     upload_moved(ao);
     bind(ao, pass);
-    return nook_ao_pass_dispatch(pass, "shaders/ao/reuse.comp.glsl", TILE_SIZE, TILE_SIZE);
+    nook_program program;
+    nook_result result = choose_program(ao, pass, &program);
+    if (result != NOOK_OK)
+        return result;
+    uint32_t groups[2];
+    nook_ao_pass_groups(pass, TILE_SIZE, TILE_SIZE, groups);
+    nook_dispatch(ao->gpu, program, groups[0], groups[1], 1);
+    return NOOK_OK;
 }
 
 nook_result ao_reuse_choose(nook_ao *ao, const nook_ao_frame *frame, const ao_slot *slot, nook_ao_pass *pass)

@@ -3,11 +3,13 @@
 
 enum { LOCATION_PART = 0 };
 
-const char *nook_ao_pass_defines(const nook_ao_pass *pass)
+const char *nook_ao_pass_defines(const nook_ao_pass *pass, int either)
 {
-    static const char *const defines[2][2] = { { "", "#define COUNTING\n" },
-                                               { "#define LISTED\n", "#define COUNTING\n#define LISTED\n" } };
-    return defines[pass->listed != NULL][pass->counting != 0];
+    static const char *const defines[3][2] = { { "", "#define COUNTING\n" },
+                                               { "#define LISTED\n", "#define COUNTING\n#define LISTED\n" },
+                                               { "#define EITHER\n", "#define COUNTING\n#define EITHER\n" } };
+    const int points = either && pass->lists ? 2 : pass->listed != NULL;
+    return defines[points][pass->counting != 0];
 }
 
 void nook_ao_pass_groups(const nook_ao_pass *pass, uint32_t local_x, uint32_t local_y, uint32_t out_groups[2])
@@ -29,7 +31,7 @@ static void dispatch(const nook_ao_pass *pass, nook_program program, uint32_t lo
 nook_result nook_ao_pass_dispatch(const nook_ao_pass *pass, const char *shader_path, uint32_t local_x, uint32_t local_y)
 {
     nook_program program;
-    nook_result result = nook_program_compute(pass->gpu, shader_path, nook_ao_pass_defines(pass), &program);
+    nook_result result = nook_program_compute(pass->gpu, shader_path, nook_ao_pass_defines(pass, 0), &program);
     if (result == NOOK_OK)
         dispatch(pass, program, local_x, local_y);
     return result;
@@ -40,7 +42,7 @@ nook_result nook_ao_pass_dispatch_parts(const nook_ao_pass *pass, const char *sh
 {
     assert(turns_per_item >= 1 && turns_per_item <= NOOK_AO_TURNS_PER_DISPATCH);
     nook_program program;
-    nook_result result = nook_program_compute(pass->gpu, shader_path, nook_ao_pass_defines(pass), &program);
+    nook_result result = nook_program_compute(pass->gpu, shader_path, nook_ao_pass_defines(pass, 0), &program);
     if (result != NOOK_OK)
         return result;
     int32_t items = NOOK_AO_TURNS_PER_DISPATCH / turns_per_item;

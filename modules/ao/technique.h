@@ -14,7 +14,7 @@
 extern "C" {
 #endif
 
-#define NOOK_AO_TECHNIQUE_VERSION 14
+#define NOOK_AO_TECHNIQUE_VERSION 15
 
 /** A box of voxels. */
 typedef struct nook_ao_box {
@@ -61,6 +61,7 @@ typedef struct nook_ao_pass {
     /** NULL, or the trace is of a list of points: shaders/ao/refine.glsl, whose groups this buffer begins with. Depth and normals are those of the
         trace before it; visibility, width and height are those of the list, a texel for each of them. */
     const nook_buffer *listed;
+    int lists; /**< Not 0: both are traced in this frame, the trace and a list. One program may do both: EITHER of shaders/ao/listed.glsl. */
     /** Only these pixels are wanted, begin[] to end[] - 1: all others must keep what visibility holds. */
     uint32_t begin[2], end[2];
     uint32_t origin[2]; /**< Pixel of invocation (0, 0) of a dispatch, see nook_ao_pass_groups: a multiple of 8. */
@@ -146,8 +147,11 @@ typedef struct nook_ao_technique {
     nook_result (*record)(void *state, const void *params, const nook_ao_pass *pass);
 } nook_ao_technique;
 
-/** Lines that programs of a technique are compiled with: those that count, when the pass does. */
-const char *nook_ao_pass_defines(const nook_ao_pass *pass);
+/**
+ * Lines that programs of a technique are compiled with: those that count, when the pass does.
+ * @param either  not 0: the shader takes EITHER, and is told by a uniform which of both it traces
+ */
+const char *nook_ao_pass_defines(const nook_ao_pass *pass, int either);
 
 /** Groups of a dispatch over a trace's pixels that starts at origin and covers the wanted pixels. @param local_x, local_y  local size, pixels */
 void nook_ao_pass_groups(const nook_ao_pass *pass, uint32_t local_x, uint32_t local_y, uint32_t out_groups[2]);

@@ -20,7 +20,7 @@ enum {
     BINDING_VISIBILITY = 0,
     BINDING_KEPT = 1
 };
-enum { LOCATION_PART = 0, LOCATION_OCCLUDERS = 1 };
+enum { LOCATION_PART = 0, LOCATION_OCCLUDERS = 1, LOCATION_OF_LIST = 2 };
 
 /**
  * Loop turns of a ray in a volume of surfels, densities or distances as a rule, counted in rooms and around single objects, where the
@@ -117,6 +117,8 @@ static nook_result trace(volume_state *s, const nook_ao_pass *pass, const volume
         nook_result result = bind_kept(s, pass, task->kept_format);
         if (result != NOOK_OK)
             return result;
+    } else { /* nothing waits: something that is always the same, or llvmpipe compiles the program for whatever is bound there */
+        nook_bind_image(pass->gpu, BINDING_KEPT, pass->visibility, GL_READ_WRITE);
     }
     nook_buffer_update(pass->gpu, s->again, 0, nothing, sizeof nothing);
     nook_bind_storage(pass->gpu, BINDING_AGAIN, s->again);
@@ -126,6 +128,8 @@ static nook_result trace(volume_state *s, const nook_ao_pass *pass, const volume
     nook_bind_image(pass->gpu, BINDING_VISIBILITY, pass->visibility, GL_READ_WRITE);
     nook_program_use(pass->gpu, task->program);
     nook_uniform_int(pass->gpu, LOCATION_OCCLUDERS, &(const int32_t){ (int32_t)pass->occluder_count }, 1);
+    if (pass->lists)
+        nook_uniform_int(pass->gpu, LOCATION_OF_LIST, &(const int32_t){ pass->listed != NULL }, 1);
     dispatch_parts(pass, &task->usual, &likely, task->program, groups);
     if (!likely.sure)
         dispatch_parts(pass, &task->most, &careful, task->program, &s->again);
@@ -228,7 +232,7 @@ static nook_result choose_program(volume_state *s, const volume_params *p, const
         nook_bind_texture(pass->gpu, BINDING_CORNERS, s->corners.texture);
     snprintf(defines, sizeof defines, "%s%s%s%s%s", corners ? "#define CORNERS\n" : "",
              multiplies(p) ? "#define MULTIPLY\n" : "", pass->tiles ? "#define TILES\n" : "",
-             pass->bins ? "#define BINNED\n" : "", nook_ao_pass_defines(pass));
+             pass->bins ? "#define BINNED\n" : "", nook_ao_pass_defines(pass, !is_drawn(p, pass)));
     if (is_drawn(p, pass))
         return nook_program_raster(pass->gpu, "shaders/ao/volume_box.vert.glsl", drawn[p->kind], defines, out_program);
     return nook_program_compute(pass->gpu, computed[p->kind], defines, out_program);

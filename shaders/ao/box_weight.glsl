@@ -28,25 +28,48 @@ float edge_sweeps(vec3 a, vec3 b)
     return sum;
 }
 
-// Corners from the point, in units of the box; axes: what those units are. The point is not inside.
+// Along x: which edges lie between a face that is seen and one that is not. Seen: the low and the high face along y, and along z.
+// Bit 2 j + k: the edge of face j along y and face k along z.
+uint outline_edges(bvec2 y, bvec2 z)
+{
+    return uint(y.x != z.x) | uint(y.x != z.y) << 1 | uint(y.y != z.x) << 2 | uint(y.y != z.y) << 3;
+}
+
+// The axes in the order in which `axis` is the first.
+vec3 rotated(vec3 v, int axis)
+{
+    return axis == 0 ? v : axis == 1 ? v.yzx : v.zxy;
+}
+
+vec3 one_of(mat3 axes, int axis)
+{
+    return axis == 0 ? axes[0] : axis == 1 ? axes[1] : axes[2];
+}
+
+// What the edge does to the sum: bits of outline_edges() in axis 0, 1, 2.
+float edge_share(int edge, vec3 low, vec3 high, mat3 axes)
+{
+    int axis = edge >> 2;
+    bool far_y = (edge & 2) != 0, far_z = (edge & 1) != 0;
+    low = rotated(low, axis), high = rotated(high, axis);
+    float turn = float(far_z ? high.z < 0.0 : low.z > 0.0) - float(far_y ? high.y < 0.0 : low.y > 0.0);
+    vec3 x = one_of(axes, axis), y = one_of(axes, axis == 2 ? 0 : axis + 1), z = one_of(axes, axis == 0 ? 2 : axis - 1);
+    vec3 beside = y * (far_y ? high.y : low.y) + z * (far_z ? high.z : low.z);
+    return turn != 0.0 ? (far_y == far_z ? turn : -turn) * edge_sweeps(beside + x * low.x, beside + x * high.x) : 0.0;
+}
+
+// Corners from the point, in units of the box; axes: what those units are. The point is not inside. The outline is gone along edge by edge:
+// four or six of twelve, and a software driver compiles them once.
 float box_weight(vec3 low, vec3 high, mat3 axes)
 {
-    vec3 low_seen = vec3(greaterThan(low, vec3(0.0))), high_seen = vec3(lessThan(high, vec3(0.0))); // 1: that face is seen
+    bvec3 low_seen = greaterThan(low, vec3(0.0)), high_seen = lessThan(high, vec3(0.0));
+    bvec2 x = bvec2(low_seen.x, high_seen.x), y = bvec2(low_seen.y, high_seen.y), z = bvec2(low_seen.z, high_seen.z);
+    uint outline = outline_edges(y, z) | outline_edges(z, x) << 4 | outline_edges(x, y) << 8;
     float sum = 0.0;
-    for (int i = 0; i < 3; i++) { // edges along each axis; those between a face that is seen and one that is not are the outline
-        int j = (i + 1) % 3, k = (i + 2) % 3;
-        vec3 begin = axes[i] * low[i], end = axes[i] * high[i];
-        vec3 low_j = axes[j] * low[j], high_j = axes[j] * high[j], low_k = axes[k] * low[k], high_k = axes[k] * high[k];
-        vec4 turn = vec4(low_seen[k] - low_seen[j], low_seen[j] - high_seen[k], high_seen[j] - low_seen[k], high_seen[k] - high_seen[j]);
-        if (turn.x != 0.0)
-            sum += turn.x * edge_sweeps(low_j + low_k + begin, low_j + low_k + end);
-        if (turn.y != 0.0)
-            sum += turn.y * edge_sweeps(low_j + high_k + begin, low_j + high_k + end);
-        if (turn.z != 0.0)
-            sum += turn.z * edge_sweeps(high_j + low_k + begin, high_j + low_k + end);
-        if (turn.w != 0.0)
-            sum += turn.w * edge_sweeps(high_j + high_k + begin, high_j + high_k + end);
-    }
+    do { // there are edges but for what is not a number, which has no share
+        sum += edge_share(findLSB(outline), low, high, axes);
+        outline &= outline - 1u;
+    } while (outline != 0u);
     // An outline around the point straight below runs around the whole rim once more, the other way.
     float weight = sum * sign(determinant(axes));
     return weight < -1e-3 ? weight + 1.0 : weight;

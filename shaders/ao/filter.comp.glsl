@@ -1,7 +1,7 @@
 // Joint bilateral filter (Papaioannou et al. 2010, section 6; Kopf et al. 2007): samples of the trace around each pixel, weighted
-// by distance to the pixel's plane and by normal. ao.filter chooses which: none, the nearest sample; disc, the paper's 17-sample
-// Gaussian disc, narrowed along the depth gradient so that it stays on the surface; tile, the 4x4 pixels that share one set of
-// rays. For full-resolution pixels it upscales in the same pass; with AT_TRACE defined it filters the trace's own, and
+// by distance to the pixel's plane and by normal. ao.filter chooses which: none, the nearest sample; with DISC defined the paper's
+// 17-sample Gaussian disc, narrowed along the depth gradient so that it stays on the surface; with TILE the 4x4 pixels that share one set
+// of rays. For full-resolution pixels it upscales in the same pass; with AT_TRACE defined it filters the trace's own, and
 // upscale.comp.glsl comes after it; with SUPPORT it lists those that it finds too few samples for: support.glsl.
 #include "ao/guide.glsl"
 layout(local_size_x = 16, local_size_y = 8) in;
@@ -19,7 +19,6 @@ layout(binding = 1) uniform sampler2D normal_full;
 layout(binding = 0, r32f) uniform writeonly image2D visibility_out;
 #endif
 
-const int FILTER_NONE = 0, FILTER_DISC = 1, FILTER_TILE = 2; // ao.filter
 // A golden-angle disc: radius sqrt((i + 0.5) / 16); the 17th sample is the centre.
 const int RING = 16;
 const float GOLDEN_ANGLE = 2.39996323;
@@ -145,15 +144,18 @@ float filtered(vec2 centre, Guide guide, ivec2 p, out float support)
     ivec2 start = frame.scale == 1 ? p : nearest_sample(centre, guide);
 #endif
     Mean mean = Mean(trace_visibility(start), 0.0, 0.0);
-    if (frame.filter_kind == FILTER_DISC)
-        add_disc(mean, guide, centre, p);
-    else if (frame.filter_kind == FILTER_TILE)
-        add_tile(mean, guide, centre);
-    support = mean.weights;
-    if (frame.filter_kind == FILTER_DISC && mean.weights <= 0.0)
+#if defined(DISC)
+    add_disc(mean, guide, centre, p);
+    if (mean.weights <= 0.0)
         add_tile(mean, guide, centre); // a wide disc can miss what lies close by
-    if (frame.filter_kind != FILTER_NONE && mean.weights <= 0.0)
+#elif defined(TILE)
+    add_tile(mean, guide, centre);
+#endif
+    support = mean.weights;
+#if defined(DISC) || defined(TILE)
+    if (mean.weights <= 0.0)
         add_around(mean, guide, centre);
+#endif
     return mean.weights > 0.0 ? mean.reference + mean.sum / mean.weights : mean.reference;
 }
 

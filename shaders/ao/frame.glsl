@@ -18,7 +18,6 @@ layout(std140, binding = 0) uniform Frame {
     float filter_normal;         // exponent
     vec2 depth_to_distance;      // distance = x / (device depth - depth_background + y)
     float depth_background;      // device depth where nothing was drawn
-    int filter_kind;             // ao.filter: 0 none, 1 disc, 2 tile
     int bins_across;             // bins in a row of the picture; 0: there are none
     vec4 view_from_world[3];     // rotation only: columns
     ivec2 origin;                // trace pixel of a dispatch's first invocation

@@ -29,7 +29,11 @@ void main()
     ivec2 p = unpack_pixel(record.x);
     Guide guide = guide_of(record);
     float own = imageLoad(traced_image, listed_place(i)).r, sum = 0.0, weights = 0.0;
-    int radius = frame.filter_kind == 0 ? 0 : 2;
+#if defined(DISC) || defined(TILE)
+    const int radius = 2;
+#else
+    const int radius = 0;
+#endif
     for (int y = -radius; y <= radius; y++) {
         for (int x = -radius; x <= radius; x++) {
             ivec2 q = p + ivec2(x, y);

@@ -5,8 +5,6 @@
 #include "ao/host.glsl"
 
 const int VOTERS = 4;
-const ivec2 OF_HALF[VOTERS] = ivec2[](ivec2(0, 0), ivec2(1, 0), ivec2(0, 1), ivec2(1, 1));
-const ivec2 OF_QUARTER[VOTERS] = ivec2[](ivec2(0, 1), ivec2(1, 3), ivec2(3, 2), ivec2(2, 0)); // no two in a row or a column
 
 struct Voter {
     vec3 position, normal; // view space; position 0: nothing seen
@@ -17,6 +15,13 @@ Voter voter_at(ivec2 pixel)
     ivec2 p = min(pixel, frame.full_size - 1);
     float depth = distance_at(p);
     return Voter(full_ray(vec2(p)) * depth, normal_at(p, depth));
+}
+
+// Where in its block voter i stands. Of 4 x 4 pixels no two in a row or a column: in Gray's order, the rows one ahead.
+ivec2 place_in_block(int i)
+{
+    int row = (i + 1) & 3;
+    return frame.scale == 2 ? ivec2(i & 1, i >> 1) : ivec2(i ^ i >> 1, row ^ row >> 1);
 }
 
 // How far b lies on a's surface, 0 to 1: by the distance to a's plane in pixels of the trace, and by the normals.
@@ -40,20 +45,41 @@ float depth_of_plane(Voter winner, vec3 ray, float seen)
     return met > 0.0 ? clamp(met, own - reach, far) : own; // not for NaN
 }
 
+// Not by voters[i]: what is indexed by a loop lies in memory, and a software driver writes there lane by lane.
+void set_voter(inout Voter voters[VOTERS], int i, Voter voter)
+{
+    for (int k = 0; k < VOTERS; k++) {
+        if (k == i)
+            voters[k] = voter;
+    }
+}
+
+Voter get_voter(Voter voters[VOTERS], int i)
+{
+    Voter found = voters[0];
+    for (int k = 1; k < VOTERS; k++) {
+        if (k == i)
+            found = voters[k];
+    }
+    return found;
+}
+
 // @return depth, 0 where nothing is seen
 float representative(ivec2 trace_pixel, out vec3 normal)
 {
-    Voter voters[VOTERS];
-    for (int i = 0; i < VOTERS; i++)
-        voters[i] = voter_at(trace_pixel * frame.scale + (frame.scale == 2 ? OF_HALF[i] : OF_QUARTER[i]));
-    Voter winner = Voter(vec3(0.0), vec3(0.0, 0.0, 1.0));
+    const Voter nobody = Voter(vec3(0.0), vec3(0.0, 0.0, 1.0));
+    int count = frame.scale > 1 ? VOTERS : 0; // unknown to compilers: voters written out take a software driver a fifth of a second
+    Voter voters[VOTERS] = Voter[](nobody, nobody, nobody, nobody), winner = nobody;
+    for (int i = 0; i < count; i++)
+        set_voter(voters, i, voter_at(trace_pixel * frame.scale + place_in_block(i)));
     float most = -1.0;
-    for (int i = 0; i < VOTERS; i++) {
+    for (int i = 0; i < count; i++) {
+        Voter own = get_voter(voters, i);
         float votes = 0.0;
         for (int j = 0; j < VOTERS; j++)
-            votes += j == i ? 0.0 : agreement(voters[i], voters[j]);
-        if (voters[i].position.z < 0.0 && votes > most) {
-            winner = voters[i];
+            votes += j == i ? 0.0 : agreement(own, voters[j]);
+        if (own.position.z < 0.0 && votes > most) {
+            winner = own;
             most = votes;
         }
     }

@@ -1,8 +1,11 @@
 // Before a trace: which of its pixels take over what was traced in the frames before, and which are listed to be traced.
-// docs/techniques.md, Reuse. Occluders here are those that have moved, as they are and as they were.
+// docs/techniques.md, Reuse. Occluders here are those that have moved, as they are and as they were. Define: BOUNDED, what moves may change
+// a value by reuse.error, and occluders stand there once, with the boxes that they have been in; else what is near them is traced.
 #include "ao/tile_list.glsl"
 #include "ao/counter.glsl"
+#ifdef BOUNDED
 #include "ao/box_weight.glsl"
+#endif
 #include "nook/octahedral.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std140, binding = 1) uniform Reuse { // struct reuse_block of modules/ao/reuse.c
@@ -14,7 +17,7 @@ layout(std140, binding = 1) uniform Reuse { // struct reuse_block of modules/ao/
     int has_before;             // 0: everything is traced
     int stands;                 // both frames are seen alike: a pixel is its own predecessor
     int moved_count;
-    float error;                // by which what moves may change a value at the most; 0: what is near it is traced
+    float error;                // by which what moves may change a value at the most
 } reuse;
 layout(binding = 0) uniform sampler2D depth_texture;
 layout(binding = 1) uniform sampler2D normal_texture;
@@ -71,6 +74,7 @@ bool predecessor(ivec2 pixel, vec3 before, vec3 normal, out ivec2 q)
     return inside && same_surface(pixel, q, before, normal);
 }
 
+#ifndef BOUNDED
 // May an occluder darken the point? It is near, and part of its box is above the point's plane.
 bool may_darken(Occluder o, vec3 position, vec3 normal)
 {
@@ -79,7 +83,7 @@ bool may_darken(Occluder o, vec3 position, vec3 normal)
 }
 
 // Uniform control flow.
-bool near_what_moved(bool wanted, vec3 position, vec3 normal)
+bool may_have_changed(bool wanted, int since, vec3 position, vec3 normal)
 {
     bool found = false;
     for (int chunk = 0; chunk < reuse.moved_count; chunk += CHUNK) {
@@ -90,7 +94,7 @@ bool near_what_moved(bool wanted, vec3 position, vec3 normal)
     }
     return found;
 }
-
+#else
 // What an occluder that has moved in the last frames can have changed since the one `since` frames ago at the most: the part of the sky that
 // the box takes in which it was all the time.
 float change_by(int moved, int since, vec3 position, mat3 plane_from_view)
@@ -126,6 +130,7 @@ bool may_have_changed(bool wanted, int since, vec3 position, vec3 normal)
     }
     return !(sum <= reuse.error); // true for NaN
 }
+#endif
 
 // The age by which a pixel comes in its turn, and the frames since it was traced, which are no more.
 uint ages_packed(uint age, uint since)
@@ -178,8 +183,7 @@ void main()
         age = traced ? 0u : age;
     }
     bool lasts = seen && !traced;
-    if (tile_begin(depth, position) && (reuse.error > 0.0 ? may_have_changed(lasts, int(since), position, normal)
-                                                          : near_what_moved(lasts, position, normal))) {
+    if (tile_begin(depth, position) && may_have_changed(lasts, int(since), position, normal)) {
         traced = true;
         age = age_out_of_turn();
     }

@@ -3,6 +3,7 @@
 // occluders, not objects times screen. Lists are made of CHUNK occluders at a time, so that none is ever left out. From such a list each
 // invocation takes those that reach its own point:
 //   tile_begin; places = tile_places; for chunks of the places: tile_list; for (i = tile_next(0); i < tile_count; i = tile_next(i + 1)) ...
+#include "ao/listed.glsl"
 #include "ao/occluders.glsl"
 #include "ao/tiles.glsl"
 
@@ -14,7 +15,7 @@ shared int tile_items[CHUNK];        // occluders, ascending
 uint tile_count = 0u;                // of them; the same in every invocation
 vec3 tile_box_min, tile_box_max; // view space, the same in every invocation
 
-#ifdef LISTED
+#if defined(LISTED) || defined(EITHER)
 shared int tile_least[3], tile_most[3]; // of positions, as numbers that sort like them
 
 // Floats of either sign in the order of integers; its own inverse.
@@ -24,7 +25,7 @@ int sortable(int bits)
 }
 
 // Of points that may lie anywhere: the box around them.
-bool tile_begin(float depth, vec3 position)
+bool tile_begin_list(float depth, vec3 position)
 {
     uint i = gl_LocalInvocationIndex;
     if (i < 3u) {
@@ -44,7 +45,9 @@ bool tile_begin(float depth, vec3 position)
     }
     return tile_least[0] <= tile_most[0];
 }
-#else
+#endif
+
+#ifndef LISTED
 #ifdef TILES
 vec2 tile_depths(float depth)
 {
@@ -69,8 +72,7 @@ vec2 tile_depths(float depth)
 }
 #endif
 
-// Call once, in uniform control flow; `depth` is 0 without geometry. @return false when no pixel of the tile has geometry
-bool tile_begin(float depth, vec3 position)
+bool tile_begin_trace(float depth)
 {
     vec2 depths = tile_depths(depth);
     float nearest = depths.x, farthest = depths.y;
@@ -81,6 +83,20 @@ bool tile_begin(float depth, vec3 position)
     return farthest > 0.0;
 }
 #endif
+
+// Call once, in uniform control flow; `depth` is 0 without geometry. @return false when no pixel of the tile has geometry
+bool tile_begin(float depth, vec3 position)
+{
+#if defined(LISTED)
+    return tile_begin_list(depth, position);
+#else
+#ifdef EITHER
+    if (of_list)
+        return tile_begin_list(depth, position);
+#endif
+    return tile_begin_trace(depth);
+#endif
+}
 
 bool tile_reaches(Occluder o)
 {
@@ -101,6 +117,10 @@ uvec2 tile_bin; // where its list begins, and its length or BIN_OF_ALL
 // The places x to y - 1 have all of the occluders first to end - 1 that may reach the tile; of a bin's list others too.
 ivec2 tile_places(int first, int end)
 {
+    if (of_list) { // its groups are no tiles of the picture
+        tile_bin = uvec2(0u, BIN_OF_ALL);
+        return ivec2(first, end);
+    }
     ivec2 bin = tile_first() / BIN_SIZE;
     int at = 2 * (bin.y * frame.bins_across + bin.x);
     tile_bin = uvec2(bins.words[at], bins.words[at + 1]);

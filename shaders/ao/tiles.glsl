@@ -39,7 +39,7 @@ int bit_place(uvec2 bits, int rank)
     int low = bitCount(bits.x), place = rank < low ? 0 : 32;
     uint word = rank < low ? bits.x : bits.y;
     rank -= rank < low ? 0 : low;
-    for (int half_width = 16; half_width > 0; half_width >>= 1) {
+    for (int half_width = frame.scale > 0 ? 16 : 0; half_width > 0; half_width >>= 1) { // compilers would write out 16, 8, ...
         int below = bitCount(word & ((1u << half_width) - 1u));
         bool above = rank >= below;
         rank -= above ? below : 0;

@@ -16,7 +16,7 @@ float sum_union(float sum, bool inside, vec3 position, vec3 normal, ivec2 pixel)
     ivec2 places = tile_places(part.z, part.w);
     float shift = noise(pixel, 1u), start = part.z > 0 ? imageLoad(kept_image, place).r : frame.r_max;
     for (int first = part.x; first < part.y; first += BATCH) {
-        int batch = min(BATCH, part.y - first);
+        int last = min(first + BATCH, part.y);
         Batch nearest = Batch(vec4(start), vec4(start));
         for (int chunk = places.x; chunk < places.y; chunk += CHUNK) {
             if (first == part.x || places.y - places.x > CHUNK)
@@ -26,11 +26,11 @@ float sum_union(float sum, bool inside, vec3 position, vec3 normal, ivec2 pixel)
                 if (i < tile_count) {
                     Occluder o = occluder_at(tile_items[i]);
                     Receiver r = receive(o, position, normal);
-                    for (int j = 0; r.can_see && j < batch; j++) {
-                        vec3 d = direction(first + j, params.rays, block, tangent, bitangent, normal);
-                        float jitter = fract(shift + float(first + j) * 0.61803399);
-                        float before = batch_get(nearest, j);
-                        batch_set(nearest, j, min(before, march(o, r, d, dot(d, normal), before, jitter)));
+                    for (int ray = first; r.can_see && ray < last; ray++) {
+                        vec3 d = direction(ray, params.rays, block, tangent, bitangent, normal);
+                        float jitter = fract(shift + float(ray) * 0.61803399);
+                        float before = batch_get(nearest, ray - first);
+                        batch_set(nearest, ray - first, min(before, march(o, r, d, dot(d, normal), before, jitter)));
                     }
                 }
                 i = tile_next(i + 1u, position);
@@ -38,8 +38,8 @@ float sum_union(float sum, bool inside, vec3 position, vec3 normal, ivec2 pixel)
         }
         if (part.w < occluder_count)
             imageStore(kept_image, place, vec4(nearest.low.x));
-        for (int j = 0; j < batch; j++)
-            sum += part.w == occluder_count ? falloff(batch_get(nearest, j)) : 0.0;
+        for (int ray = first; ray < last; ray++) // not from 0 to a batch: compilers would write that out for each ray
+            sum += part.w == occluder_count ? falloff(batch_get(nearest, ray - first)) : 0.0;
     }
     return sum;
 }

@@ -299,10 +299,30 @@ static void test_lists_of_large_pictures_are_cut_to_what_a_texture_holds(void **
     nook_fixture_view *view = *state;
     const uint32_t most = view->gpu->max_texture_size, width = most / 4;
     ao_refine refine = { .pixels = 0 };
-    assert_int_equal(ao_refine_fit(view->gpu, &refine, width, 512, 1.0), NOOK_OK);
+    assert_int_equal(ao_refine_fit(view->gpu, &refine, width, 512, 2, 1.0), NOOK_OK);
     assert_int_equal(refine.capacity, 64 * most);
     assert_int_equal(refine.traced.height, most);
     ao_refine_release(view->gpu, &refine);
+}
+
+static int is_power_of_two(uint32_t n)
+{
+    return (n & (n - 1)) == 0;
+}
+
+/* Else llvmpipe compiles the program that traces both once for each of them. */
+static void test_the_image_of_a_list_has_sides_that_are_powers_of_two_where_those_of_the_trace_are(void **state)
+{
+    static const uint32_t sizes[][2] = { { 640, 360 }, { 512, 512 }, { 512, 288 }, { 636, 256 }, { 4, 4 }, { 12, 12 } };
+    nook_fixture_view *view = *state;
+    for (uint32_t i = 0; i < NOOK_COUNT(sizes); i++) {
+        ao_refine refine = { .pixels = 0 };
+        assert_int_equal(ao_refine_fit(view->gpu, &refine, sizes[i][0], sizes[i][1], 4, 0.25), NOOK_OK);
+        assert_int_equal(is_power_of_two(refine.traced.width), is_power_of_two(sizes[i][0] / 4));
+        assert_int_equal(is_power_of_two(refine.traced.height), is_power_of_two(sizes[i][1] / 4));
+        assert_true(refine.traced.width >= 64 && refine.traced.width * refine.traced.height >= refine.capacity);
+        ao_refine_release(view->gpu, &refine);
+    }
 }
 
 static void test_screen_space_traces_lists_too(void **state)
@@ -334,6 +354,7 @@ int main(void)
         cmocka_unit_test(test_traced_pixels_where_nothing_occludes_are_open),
         cmocka_unit_test(test_traced_is_around_for_a_technique_that_traces_no_list),
         cmocka_unit_test(test_lists_of_large_pictures_are_cut_to_what_a_texture_holds),
+        cmocka_unit_test(test_the_image_of_a_list_has_sides_that_are_powers_of_two_where_those_of_the_trace_are),
         cmocka_unit_test(test_screen_space_traces_lists_too),
     };
     return cmocka_run_group_tests(tests, setup, ao_view_teardown);
