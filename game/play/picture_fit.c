@@ -18,10 +18,26 @@ double nook_picture_fit_scale(const nook_picture_fit *fit)
     return 1.0 - 0.1 * fit->step;
 }
 
+/* Of the side itself, its half and its quarter, rounded up. */
+static bool becomes_power_of_two(uint32_t side, uint32_t whole)
+{
+    for (uint32_t scale = 1; scale <= 4; scale *= 2) {
+        uint32_t part = (side + scale - 1) / scale, of_whole = (whole + scale - 1) / scale;
+        if ((part & (part - 1)) == 0 && (of_whole & (of_whole - 1)) != 0)
+            return true;
+    }
+    return false;
+}
+
 uint32_t nook_picture_fit_side(const nook_picture_fit *fit, uint32_t pixels)
 {
-    uint32_t side = (uint32_t)lround(pixels * nook_picture_fit_scale(fit));
-    return side > 0 ? side : 1;
+    uint32_t wanted = (uint32_t)lround(pixels * nook_picture_fit_scale(fit)), least = wanted > 4 ? wanted - 4 : 1;
+    uint32_t side = wanted;
+    while (side > least && becomes_power_of_two(side, pixels))
+        side--;
+    if (side > 0 && !becomes_power_of_two(side, pixels))
+        return side;
+    return wanted > 0 ? wanted : 1; /* so small that there is none */
 }
 
 /* What a frame of now would take in another size: as measured, its time follows its pixels. */

@@ -36,5 +36,8 @@ bool nook_picture_fit_add(nook_picture_fit *fit, double ms, double budget_ms);
 bool nook_picture_fit_reset(nook_picture_fit *fit);
 /** Of each side: 1, 0.9, 0.8, ... 0.5. */
 double nook_picture_fit_scale(const nook_picture_fit *fit);
-/** A side of `pixels` in the size of now; at least 1. */
+/**
+ * A side of `pixels` in the size of now; at least 1. A few pixels less where it, its half or its quarter (what occlusion is traced at) would be a
+ * power of two and that of the whole side is not: llvmpipe compiles all programs again for textures that are, which takes a second.
+ */
 uint32_t nook_picture_fit_side(const nook_picture_fit *fit, uint32_t pixels);

@@ -146,6 +146,19 @@ static void test_sides_are_rounded_and_never_nothing(void **state)
     assert_int_equal(nook_picture_fit_side(&whole, 0), 1);
 }
 
+/* 640 x 360 at 0.8 would be 512 wide, and its trace 128. */
+static void test_no_side_becomes_a_power_of_two_that_was_none(void **state)
+{
+    (void)state;
+    const nook_picture_fit fit = { .step = 2 };
+    assert_int_equal(nook_picture_fit_side(&fit, 640), 508);
+    assert_int_equal(nook_picture_fit_side(&fit, 1280), 1020);
+    assert_int_equal(nook_picture_fit_side(&fit, 360), 288);
+    assert_int_equal(nook_picture_fit_side(&fit, 320), 252); /* 256, 255: half is 128; 254, 253: quarter is 64 */
+    assert_int_equal(nook_picture_fit_side(&fit, 1024), 819);
+    assert_int_equal(nook_picture_fit_side(&fit, 5), 4); /* nothing else is near */
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -158,6 +171,7 @@ int main(void)
         cmocka_unit_test(test_a_size_that_has_failed_soon_is_tried_ever_more_rarely),
         cmocka_unit_test(test_frames_of_a_new_size_settle_before_they_count),
         cmocka_unit_test(test_without_a_rate_the_picture_is_whole),
+        cmocka_unit_test(test_no_side_becomes_a_power_of_two_that_was_none),
         cmocka_unit_test(test_sides_are_rounded_and_never_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
