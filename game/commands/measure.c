@@ -60,7 +60,7 @@ static nook_result list_scenes(const nook_measure_options *options, nook_scene_l
     return result;
 }
 
-/* The settings of the sweep, and that of the settings file. */
+/* The settings of the sweep, with what --param says, and that of the settings file as it is. */
 static nook_result read_sweep(nook_measure_options *options, nook_sweep *out)
 {
     nook_result result = options->settings ? nook_settings_file_read(options->settings, &options->file) : NOOK_OK;
@@ -69,6 +69,8 @@ static nook_result read_sweep(nook_measure_options *options, nook_sweep *out)
                          options->settings);
     if (result == NOOK_OK)
         result = nook_sweep_read(options->sweep, out);
+    for (size_t i = 0; i < options->params.count && result == NOOK_OK; i++)
+        result = nook_sweep_param(out, options->params.items[i]);
     if (result == NOOK_OK && options->settings)
         result = nook_sweep_add(options->settings, out, &options->file.setting);
     return result;

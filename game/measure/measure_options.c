@@ -34,6 +34,7 @@ static bool refuse_with_tables(const nook_measure_options *options, const char *
     const char *ignored = scene_count > 0         ? "a scene"
                           : options->scene_folder ? "--scenes"
                           : sweep                 ? "--sweep"
+                          : options->params.count ? "--param"
                           : options->settings     ? "--settings"
                                                   : NULL;
     if (options->tables && ignored)
@@ -58,6 +59,12 @@ bool nook_measure_options_read(const nook_app *app, int argc, char **argv, nook_
           .target = &out->sweep,
           .placeholder = "FILE",
           .help = "settings and views of one's own; content/suites/ has examples" },
+        { .name = "param",
+          .kind = NOOK_OPTION_LIST,
+          .target = &out->params,
+          .placeholder = "NAME=VALUE",
+          .help = "in every setting of that technique: volume.kind=surfel; names: ./nook compare "
+                  "--list-params" },
         nook_option_row_settings(
             &out->settings,
             "measure this setting, as ./nook tune writes it, beside those of the sweep; compare and bake take it\n"

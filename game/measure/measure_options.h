@@ -10,6 +10,7 @@ typedef struct nook_measure_options {
     const char *scene_folder; /**< Every scene in it and in its own folders; NULL: none. */
     int32_t suite;            /**< 0 quick, 1 full. */
     const char *sweep;        /**< A file in the place of a suite's. */
+    nook_option_list params;  /**< For nook_sweep_param. */
     const char *settings;     /**< A settings file, measured beside the sweep; NULL: none. */
     const char *out;
     nook_option_list merge; /**< Folders whose rows are taken in. */

@@ -55,4 +55,11 @@ nook_result nook_sweep_parse(const char *name, const char *text, size_t size, no
  * @return NOOK_E_FORMAT too many, NOOK_E_MEMORY; as it was then
  */
 nook_result nook_sweep_add(const char *where, nook_sweep *sweep, const nook_setting *setting);
+/**
+ * Puts a parameter to one value in every setting that has it; those that mean the same then are one.
+ * @param text  "TECHNIQUE.NAME=VALUE", or "ao.NAME=VALUE" for the settings of all techniques
+ * @return NOOK_E_ARG, NOOK_E_RANGE, NOOK_E_NOT_FOUND no such technique or parameter, or the sweep has no setting of that technique,
+ *         NOOK_E_MEMORY; as it was then
+ */
+nook_result nook_sweep_param(nook_sweep *sweep, const char *text);
 void nook_sweep_free(nook_sweep *sweep); /**< Zeroed ones are allowed. */

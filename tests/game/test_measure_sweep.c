@@ -141,6 +141,57 @@ static void test_more_combinations_than_anyone_measures_are_refused(void **state
     must_refuse(text, "s.txt:2:", "combinations");
 }
 
+static void test_a_parameter_of_the_command_line_is_in_every_setting_of_its_technique(void **state)
+{
+    (void)state;
+    static const char *const surfels[] = { "volume kind=surfel", "volume rays=4 kind=surfel", "ssao" };
+    static const char *const fewer[] = { "volume rays=4 kind=surfel", "ssao" };
+    static const char *const half[] = { "volume rays=4 kind=surfel ao.scale=half", "ssao ao.scale=half" };
+    nook_sweep sweep = must_parse("[volume]\nrays = 4\n[ssao]\n");
+    sweep.width = 12345;
+    assert_int_equal(nook_sweep_param(&sweep, "volume.kind=surfel"), NOOK_OK);
+    assert_settings(&sweep, surfels, NOOK_COUNT(surfels));
+    assert_int_equal(nook_sweep_param(&sweep, "volume.rays=4"), NOOK_OK); /* two are the same now */
+    assert_settings(&sweep, fewer, NOOK_COUNT(fewer));
+    assert_int_equal(nook_sweep_param(&sweep, "ao.scale=half"), NOOK_OK);
+    assert_settings(&sweep, half, NOOK_COUNT(half));
+    assert_int_equal(sweep.width, 12345);
+    nook_sweep_free(&sweep);
+}
+
+static void test_a_wrong_parameter_of_the_command_line_is_refused_in_one_line_and_changes_nothing(void **state)
+{
+    (void)state;
+    static const char *const settings[] = { "volume", "volume rays=4" };
+    static const struct {
+        const char *text, *reason;
+    } cases[] = {
+        { "", "give TECHNIQUE.NAME=VALUE" },
+        { "volume.kind", "give TECHNIQUE.NAME=VALUE" },
+        { "kind=surfel", "give TECHNIQUE.NAME=VALUE" },
+        { "kind=a.b", "give TECHNIQUE.NAME=VALUE" },
+        { "volum.kind=surfel", "volum" },
+        { "volume.kinds=surfel", "kinds" },
+        { "volume.kind=surfels", "surfels" },
+        { "volume.rays=0", "rays" },
+        { "ssao.samples=4", "no setting of ssao" },
+        { "ao.r_max=1", "what is measured" },
+    };
+    nook_sweep sweep = must_parse("[volume]\nrays = 4\n");
+    for (size_t i = 0; i < NOOK_COUNT(cases); i++) {
+        nook_log_capture log;
+        nook_log_capture_begin(&log);
+        nook_result result = nook_sweep_param(&sweep, cases[i].text);
+        nook_log_capture_end();
+        assert_int_not_equal(result, NOOK_OK);
+        assert_int_equal(log.errors, 1);
+        if (!strstr(log.text, cases[i].reason))
+            fail_msg("%s: \"%s\" does not hold \"%s\"", cases[i].text, log.text, cases[i].reason);
+        assert_settings(&sweep, settings, NOOK_COUNT(settings));
+    }
+    nook_sweep_free(&sweep);
+}
+
 static void test_shipped_suites_are_read(void **state)
 {
     (void)state;
@@ -165,6 +216,8 @@ int main(void)
         cmocka_unit_test(test_what_is_measured_stands_before_the_blocks),
         cmocka_unit_test(test_what_is_wrong_is_said_with_file_and_line),
         cmocka_unit_test(test_more_combinations_than_anyone_measures_are_refused),
+        cmocka_unit_test(test_a_parameter_of_the_command_line_is_in_every_setting_of_its_technique),
+        cmocka_unit_test(test_a_wrong_parameter_of_the_command_line_is_refused_in_one_line_and_changes_nothing),
         cmocka_unit_test(test_shipped_suites_are_read),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
