@@ -46,9 +46,10 @@ static nook_result assign(const assignment *a, const nook_sweep *sweep, nook_swe
         if (result != NOOK_OK)
             return result;
     }
-    return taken > 0 ? NOOK_OK
-                     : nook_fail(NOOK_E_NOT_FOUND, "%s %s.%s: the sweep has no setting of %s", where,
-                                 a->technique->name, a->name, a->technique->name);
+    if (a->technique && taken == 0)
+        return nook_fail(NOOK_E_NOT_FOUND, "%s %s.%s: the sweep has no setting of %s", where, a->technique->name,
+                         a->name, a->technique->name);
+    return NOOK_OK;
 }
 
 nook_result nook_sweep_param(nook_sweep *sweep, const char *text)
