@@ -35,10 +35,12 @@ bool nook_file_changes_add(file_changes *changes, const char *path, double when_
     return true;
 }
 
-bool nook_file_changes_due(const file_changes *changes, double now_ms)
+double nook_file_changes_settling_ms(const file_changes *changes, double now_ms)
 {
-    return changes->count > 0 && (now_ms - changes->last_ms >= NOOK_FILE_WATCH_SETTLE_MS ||
-                                  now_ms - changes->first_ms >= NOOK_FILE_WATCH_LONGEST_MS);
+    double settled = changes->last_ms + NOOK_FILE_WATCH_SETTLE_MS,
+           longest = changes->first_ms + NOOK_FILE_WATCH_LONGEST_MS;
+    double left = (settled < longest ? settled : longest) - now_ms;
+    return changes->count > 0 && left > 0.0 ? left : 0.0;
 }
 
 static int compare_paths(const void *a, const void *b)

@@ -19,8 +19,8 @@ typedef struct file_changes {
 /** Remembers a path that changed at that time, by nook_clock_ms. @return false without memory; it is not remembered then */
 bool nook_file_changes_add(file_changes *changes, const char *path, double when_ms);
 
-/** Whether there are some and it is time to tell them. */
-bool nook_file_changes_due(const file_changes *changes, double now_ms);
+/** Until it is time to tell them; 0: it is, or there are none. */
+double nook_file_changes_settling_ms(const file_changes *changes, double now_ms);
 
 /** Calls `changed` for each path once, sorted, and forgets them all. @return how many */
 size_t nook_file_changes_tell(file_changes *changes, void (*changed)(void *user, const char *path), void *user);

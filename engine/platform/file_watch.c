@@ -309,10 +309,15 @@ size_t nook_file_watch_poll(nook_file_watch *watch, nook_file_changed *changed, 
     uv_run(&watch->loop, UV_RUN_NOWAIT);
     for (size_t i = 0; i < watch->base_count; i++)
         look_at_base(watch, watch->bases[i]);
-    if (!nook_file_changes_due(&watch->changes, nook_clock_ms()))
+    if (watch->changes.count == 0 || nook_file_watch_settling_ms(watch) > 0.0)
         return 0;
     watch->changed_ms = watch->changes.first_ms;
     return nook_file_changes_tell(&watch->changes, changed, user);
+}
+
+double nook_file_watch_settling_ms(const nook_file_watch *watch)
+{
+    return nook_file_changes_settling_ms(&watch->changes, nook_clock_ms());
 }
 
 double nook_file_watch_changed_ms(const nook_file_watch *watch)

@@ -15,7 +15,7 @@ extern "C" {
 #endif
 
 enum {
-    NOOK_FILE_WATCH_SETTLE_MS = 50,   /**< Without any change, until the changes are given. */
+    NOOK_FILE_WATCH_SETTLE_MS = 25,   /**< Without any change, until the changes are given. */
     NOOK_FILE_WATCH_LONGEST_MS = 500, /**< From the first change, even when changes do not end. */
 };
 
@@ -50,6 +50,12 @@ typedef void nook_file_changed(void *user, const char *path);
  * @return how many paths were given
  */
 size_t nook_file_watch_poll(nook_file_watch *watch, nook_file_changed *changed, void *user);
+
+/**
+ * How long what the last poll has seen, and not given, must be left alone yet: who has nothing better to do than a picture without it
+ * waits that long and polls again. 0: nothing is held back.
+ */
+double nook_file_watch_settling_ms(const nook_file_watch *watch);
 
 /** When the first of the changes that the last poll gave was made, by nook_clock_ms; 0 before there was one. */
 double nook_file_watch_changed_ms(const nook_file_watch *watch);

@@ -116,10 +116,20 @@ static void reload(nook_shader_reload *self)
                   self->changed_count > 1 ? ", ..." : "");
 }
 
+/* What was saved a moment ago is waited for here: shorter than a picture without it. Once, so that changes without end do not stop frames. */
+static void take_changes(nook_shader_reload *self)
+{
+    double left = nook_file_watch_poll(self->watch, keep_change, self) ? 0.0 : nook_file_watch_settling_ms(self->watch);
+    if (left <= 0.0)
+        return;
+    nook_clock_rest(left);
+    nook_file_watch_poll(self->watch, keep_change, self);
+}
+
 bool nook_shader_reload_poll(nook_shader_reload *self)
 {
     uint32_t reloads = self->status.reloads, failed = self->status.failed, failures = self->status.failures;
-    nook_file_watch_poll(self->watch, keep_change, self);
+    take_changes(self);
     if (self->changed_count > 0 || self->lost)
         reload(self);
     else

@@ -25,7 +25,8 @@ nook_result nook_shader_reload_create(nook_gpu *gpu, nook_shader_reload **out_re
 void nook_shader_reload_destroy(nook_shader_reload *reload); /**< NULL is allowed. */
 
 /**
- * Once a frame, before anything of it is drawn: reloads what was saved since the last call. Costs microseconds when nothing was.
+ * Once a frame, before anything of it is drawn: reloads what was saved since the last call.
+ * Costs microseconds when nothing was, and the rest of NOOK_FILE_WATCH_SETTLE_MS when something was just now.
  * @return true: draw again, programs were replaced or `error` is another one
  */
 bool nook_shader_reload_poll(nook_shader_reload *reload);

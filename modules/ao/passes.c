@@ -23,7 +23,7 @@ nook_result ao_dispatch_over(nook_ao *ao, const char *path, const char *defines,
 
 static const char HAS_NORMAL[] = "#define HAS_NORMAL\n";
 
-enum { HOST_TEXTURES = 2, UPSCALE_BILINEAR = 2, DOWNSAMPLE_MAJORITY = 1 };
+enum { LOCATION_GATHERING = 0, HOST_TEXTURES = 2, UPSCALE_BILINEAR = 2, DOWNSAMPLE_MAJORITY = 1 };
 
 /** However the host samples its textures, ours is the nearest texel; release_host gives it back. */
 static void bind_host(nook_ao *ao, const nook_ao_frame *frame)
@@ -173,18 +173,33 @@ nook_result ao_filter_trace(nook_ao *ao)
                             (uint32_t)(region->end[1] - region->begin[1]));
 }
 
-/** Reads depth and normals of the trace where filtering has bound them. */
+/** What both halves of shaders/ao/support.comp.glsl bind, in both: llvmpipe compiles a program for what is bound. */
+static nook_result support(nook_ao *ao, bool gathering, nook_buffer groups)
+{
+    const ao_trace *trace = &ao->targets.traces[ao->scale];
+    nook_program program;
+    nook_result result = prepare_pass(ao, "shaders/ao/support.comp.glsl", "", &program);
+    if (result != NOOK_OK)
+        return result;
+    ao_refine_bind(ao->gpu, &ao->refine); /* the technique may have bound others, and other textures */
+    nook_bind_texture(ao->gpu, 2, trace->depth);
+    nook_bind_texture(ao->gpu, 3, trace->normal);
+    nook_bind_image(ao->gpu, 0, trace->filtered, GL_READ_WRITE);
+    nook_bind_image(ao->gpu, 1, ao->refine.traced, GL_READ_ONLY);
+    nook_program_use(ao->gpu, program);
+    nook_uniform_int(ao->gpu, LOCATION_GATHERING, &(const int32_t){ gathering }, 1);
+    nook_dispatch_indirect(ao->gpu, program, groups);
+    return NOOK_OK;
+}
+
 nook_result ao_support_gather(nook_ao *ao)
 {
-    return dispatch_listed(ao, "shaders/ao/support_gather.comp.glsl", "", ao->refine.candidates);
+    return support(ao, true, ao->refine.candidates);
 }
 
 nook_result ao_support_finish(nook_ao *ao)
 {
-    ao_refine_bind(ao->gpu, &ao->refine); /* the technique may have bound others */
-    nook_bind_image(ao->gpu, 0, ao->targets.traces[ao->scale].filtered, GL_READ_WRITE);
-    nook_bind_image(ao->gpu, 1, ao->refine.traced, GL_READ_ONLY);
-    return dispatch_listed(ao, "shaders/ao/support_finish.comp.glsl", "", ao->refine.listed);
+    return support(ao, false, ao->refine.listed);
 }
 
 nook_result ao_upscale(nook_ao *ao, const nook_ao_frame *frame)

@@ -124,6 +124,18 @@ static void test_saved_shader_is_seen(void **state)
         assert_true(out[3 * i] == 255 && out[3 * i + 1] == 0 && out[3 * i + 2] == 255);
 }
 
+static void test_what_is_saved_before_a_picture_is_in_that_picture(void **state)
+{
+    fixture *self = *state;
+    picture before, after;
+    draw(self, NOOK_VIEW_LIT, before);
+    file_tree_edit(&self->tree, "shaders/render/tone.glsl", "vec3 srgb_encode(vec3 c)\n{",
+                   "vec3 srgb_encode(vec3 c)\n{\n    return vec3(1.0, 0.0, 1.0);");
+    assert_true(nook_shader_reload_poll(self->reload));
+    draw(self, NOOK_VIEW_LIT, after);
+    assert_false(same(before, after));
+}
+
 static void test_broken_include_keeps_the_picture_and_says_where_until_it_is_mended(void **state)
 {
     fixture *self = *state;
@@ -262,6 +274,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(test_every_shader_of_ours_can_be_reloaded_and_pictures_stay),
         TEST(test_saved_shader_is_seen),
+        TEST(test_what_is_saved_before_a_picture_is_in_that_picture),
         TEST(test_broken_include_keeps_the_picture_and_says_where_until_it_is_mended),
         TEST(test_shadow_map_that_was_kept_is_drawn_anew_by_a_reloaded_shader),
         TEST(test_technique_whose_shader_never_was_good_works_once_it_is_mended),

@@ -124,6 +124,27 @@ static void test_change_that_was_made_long_ago_is_told_at_once(void **state)
     assert_string_equal(self->told, "shaders/a.glsl ");
 }
 
+static void test_how_long_a_change_is_held_back_is_known(void **state)
+{
+    fixture *self = *state;
+    assert_true(nook_file_watch_settling_ms(self->watch) == 0.0);
+    self->told[0] = '\0';
+    size_t told = 0;
+    double left = 0.0;
+    for (int i = 0; i < 100 && told == 0 && left <= 0.0; i++) { /* a machine that sleeps in between tells it at once */
+        file_tree_write(&self->tree, "shaders/a.glsl", "x");
+        told = nook_file_watch_poll(self->watch, keep_path, self);
+        left = nook_file_watch_settling_ms(self->watch);
+        assert_true(left <= NOOK_FILE_WATCH_SETTLE_MS);
+        assert_int_equal(told > 0, left <= 0.0);
+    }
+    nook_clock_rest(left);
+    if (told == 0)
+        assert_int_equal(nook_file_watch_poll(self->watch, keep_path, self), 1);
+    assert_string_equal(self->told, "shaders/a.glsl ");
+    assert_true(nook_file_watch_settling_ms(self->watch) == 0.0);
+}
+
 static void test_file_renamed_over_is_told_every_time(void **state)
 {
     fixture *self = *state;
@@ -378,6 +399,7 @@ int main(void)
         TEST(test_nothing_is_told_when_nothing_changes),
         TEST(test_file_written_in_place_is_told_once),
         TEST(test_change_that_was_made_long_ago_is_told_at_once),
+        TEST(test_how_long_a_change_is_held_back_is_known),
         TEST(test_file_renamed_over_is_told_every_time),
         TEST(test_file_that_comes_and_goes_is_told),
         TEST(test_files_saved_together_are_told_together_and_sorted),
