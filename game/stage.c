@@ -336,6 +336,31 @@ nook_result nook_stage_occlude(nook_stage *stage)
     return nook_ao_record(stage->ao, &frame);
 }
 
+/* Records until every value is the mean of as many traces as it may be. 1: there are no means. */
+static int records_of_means(const nook_stage *stage)
+{
+    double traces = 1.0, turns = 1.0;
+    nook_ao_get_param(stage->ao, "ao.accumulate", &traces);
+    nook_ao_get_param(stage->ao, "ao.reuse", &turns);
+    return traces > 1.0 ? (int)(traces * turns) : 1;
+}
+
+nook_result nook_stage_settle(nook_stage *stage)
+{
+    const int records = records_of_means(stage);
+    nook_result result = NOOK_OK;
+    nook_stage_begin_means(stage);
+    for (int i = 0; i < records && records > 1 && result == NOOK_OK; i++)
+        result = nook_stage_occlude(stage);
+    return result;
+}
+
+void nook_stage_begin_means(nook_stage *stage)
+{
+    if (records_of_means(stage) > 1)
+        nook_ao_forget(stage->ao);
+}
+
 nook_texture nook_stage_visibility(const nook_stage *stage)
 {
     nook_ao_texture texture = nook_ao_visibility(stage->ao);

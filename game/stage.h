@@ -112,6 +112,13 @@ nook_result nook_stage_begin(nook_stage *stage, const nook_camera *camera);
 /** Records the chosen technique on the last G-buffer. */
 nook_result nook_stage_occlude(nook_stage *stage);
 /**
+ * With ao.accumulate, what an eye that stands sees of it at last, whatever was drawn before; else nothing is done. After nook_stage_occlude,
+ * before a picture is measured.
+ */
+nook_result nook_stage_settle(nook_stage *stage);
+/** With ao.accumulate, the next record takes nothing over: before one that is timed, or it might have nothing left to trace. */
+void nook_stage_begin_means(nook_stage *stage);
+/**
  * Shows the last finished picture in the window and answers its events: for long jobs, between their steps. Nothing when
  * there is no window.
  * @param doing  for the title

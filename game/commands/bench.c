@@ -10,7 +10,7 @@ static const nook_command benches[] = {
     { "cost", "occlusion by the number of pixels, by its reach and by the size of the volumes", nook_bench_run_cost },
     { "occluders", "occlusion by 1 to 4096 volumes, apart and piled up, and by one that holds them all",
       nook_bench_run_occluders },
-    { "reuse", "what ao.reuse saves and costs while the camera walks and turns", nook_bench_run_reuse },
+    { "reuse", "what ao.reuse and ao.accumulate save and cost while the camera walks and turns", nook_bench_run_reuse },
     { "character", "what meshes that bend cost in each frame: posed, voxelised", nook_bench_run_character },
     { "physics", "a step of a level's rigid bodies: asleep, awake, thrown about; rays", nook_bench_run_physics },
     { "ecs", "create, change, walk and destroy entities", nook_bench_run_ecs },

@@ -1,4 +1,4 @@
-/* What ao.reuse saves and what it costs while the camera moves: on the scene's cameras, standing, walking straight ahead and turning. */
+/* What ao.reuse and ao.accumulate save and what they cost while the camera moves: on the scene's cameras, standing, walking straight ahead and turning. */
 #include "engine/core/angle.h"
 #include "engine/core/clock.h"
 #include "engine/core/order.h"
@@ -18,7 +18,13 @@ enum { FRAMES_MAX = 256, JUDGED = 4 /* frames at the end whose pictures are meas
 
 static const double walk_speed = 1.4, turn_speed = 90.0; /* metres and degrees a second */
 static const double frame_rate = 20.0;                   /* frames a second */
-static const int32_t periods[] = { 1, 2, 3, 4 };
+
+/** How values are taken over from frame to frame. */
+typedef struct way {
+    int32_t reuse, accumulate;
+} way;
+
+static const way ways[] = { { 1, 1 }, { 2, 1 }, { 3, 1 }, { 4, 1 }, { 1, 4 }, { 1, 16 }, { 4, 4 } };
 
 typedef enum motion { MOTION_STAND, MOTION_WALK, MOTION_TURN, MOTION_COUNT } motion;
 
@@ -53,7 +59,7 @@ static bool read_options(const nook_app *app, int argc, char **argv, reuse_optio
     };
     const nook_usage usage = {
         .command = "bench reuse",
-        .summary = "Measures ao.reuse on the cameras of a scene, default the demo level.",
+        .summary = "Measures ao.reuse and ao.accumulate on the cameras of a scene, default the demo level.",
         .options = options,
         .option_count = NOOK_COUNT(options),
         .details = "The camera stands, walks ahead at 1.4 m/s, turns by 90 degrees/s, at 20 frames a second. ms:\n"
@@ -73,8 +79,8 @@ static nook_camera camera_after(const nook_camera *start, motion how, int32_t fr
     const double *m = world_from_view.m;
     nook_matrix move;
     if (how == MOTION_WALK) {
-        double way = -walk_speed * frames / frame_rate / hypot(m[8], m[10]);
-        move = nook_matrix_translation(-way * m[8], 0.0, -way * m[10]);
+        double along = -walk_speed * frames / frame_rate / hypot(m[8], m[10]);
+        move = nook_matrix_translation(-along * m[8], 0.0, -along * m[10]);
     } else {
         double half = 0.5 * turn_speed * NOOK_DEGREE * frames / frame_rate;
         const double none[3] = { 0, 0, 0 }, one[3] = { 1, 1, 1 }, rotation[4] = { 0, sin(half), 0, cos(half) };
@@ -205,15 +211,17 @@ static nook_result measure_motion(nook_stage *stage, const reuse_options *option
     nook_result result = draw_end(stage, options, scene_hash, start, how, &end);
     if (result == NOOK_OK)
         result = nook_setting_apply(stage->ao, setting);
-    for (size_t i = 0; i < NOOK_COUNT(periods) && result == NOOK_OK; i++) {
+    for (size_t i = 0; i < NOOK_COUNT(ways) && result == NOOK_OK; i++) {
         path_result found = { .ms = 0.0 };
-        result = nook_ao_set_param(stage->ao, "ao.reuse", periods[i]);
+        result = nook_ao_set_param(stage->ao, "ao.reuse", ways[i].reuse);
+        if (result == NOOK_OK)
+            result = nook_ao_set_param(stage->ao, "ao.accumulate", ways[i].accumulate);
         if (result == NOOK_OK)
             result = run_path(stage, options, start, how, &end, &found);
         if (result != NOOK_OK)
             break;
-        printf("  %-12s %-7s %5d %8.2f %8.3f %8.4f %8.4f\n", name, motion_names[how], periods[i], found.ms,
-               found.traced, found.rmse, found.flicker);
+        printf("  %-12s %-7s %5d %10d %8.2f %8.3f %8.4f %8.4f\n", name, motion_names[how], ways[i].reuse,
+               ways[i].accumulate, found.ms, found.traced, found.rmse, found.flicker);
         fflush(stdout);
     }
     free_end(&end);
@@ -227,7 +235,8 @@ static nook_result run(void *user, nook_stage *stage, const nook_settings_file *
     const uint32_t count = nook_bench_stage_camera_count(stage);
     nook_result result = NOOK_OK;
     nook_bench_stage_print(&options->stage, stage, settings);
-    printf("\n  %-12s %-7s %5s %8s %8s %8s %8s\n", "camera", "", "reuse", "ms", "traced", "rmse", "flicker");
+    printf("\n  %-12s %-7s %5s %10s %8s %8s %8s %8s\n", "camera", "", "reuse", "accumulate", "ms", "traced", "rmse",
+           "flicker");
     for (uint32_t i = 0; i < count && result == NOOK_OK; i++) {
         nook_camera camera;
         char name[NOOK_BENCH_CAMERA_NAME_SIZE];

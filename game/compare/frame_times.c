@@ -9,6 +9,7 @@
 /* One frame's wall clock, and the GPU's own where it can be trusted. */
 static nook_result time_frame(nook_stage *stage, nook_gpu_timer timer, double *out_ms, double *out_gpu_ms)
 {
+    nook_stage_begin_means(stage);
     nook_gpu_finish(stage->gpu);
     double start = nook_clock_ms();
     if (timer.begin)

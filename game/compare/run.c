@@ -71,6 +71,8 @@ static nook_result run_technique(nook_stage *stage, double budget_ms, nook_compa
     if (result == NOOK_OK)
         result = time_frames(stage, budget_ms, row);
     if (result == NOOK_OK)
+        result = nook_stage_settle(stage);
+    if (result == NOOK_OK)
         result = nook_compare_read_visibility(stage, &row->visibility);
     return result == NOOK_OK ? read_lit(stage, &row->lit) : result;
 }

@@ -122,6 +122,8 @@ static nook_result measure_row(nook_stage *stage, const nook_match *match, nook_
     if (result == NOOK_OK)
         result = nook_stage_occlude(stage);
     if (result == NOOK_OK)
+        result = nook_stage_settle(stage);
+    if (result == NOOK_OK)
         result = nook_compare_read_visibility(stage, &second);
     stage->progress = NULL;
     nook_progress_end(&progress);

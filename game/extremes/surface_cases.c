@@ -19,7 +19,7 @@ static nook_result run_flattest_ray(const nook_extremes *extremes, nook_extreme_
     out_found->bound = 0.0;
     double flattest = 1.0;
     for (uint32_t seed = 0; seed < seeds; seed++) {
-        nook_fill_directions(most, seed, directions);
+        nook_fill_directions(most, seed, 0, directions);
         for (size_t i = 0; i < (size_t)NOOK_DIRECTION_BLOCKS * most; i++) {
             const float *d = directions + 4 * i;
             double length = sqrt((double)d[0] * d[0] + (double)d[1] * d[1] + (double)d[2] * d[2]);

@@ -85,7 +85,7 @@ static nook_result occlude(nook_site *site, nook_sample *sample, nook_ao_statist
         return result;
     nook_ao_get_statistics(site->stage->ao, out_statistics);
     sample->outside += out_statistics->outside;
-    return NOOK_OK;
+    return nook_stage_settle(site->stage);
 }
 
 /* The picture that is measured, and what it costs beside time. */

@@ -160,7 +160,7 @@ static nook_result describe_rays(uint32_t rays, nook_plan_description *out)
     float *directions = malloc((size_t)NOOK_DIRECTION_BLOCKS * rays * 4 * sizeof *directions);
     if (!directions)
         return nook_fail(NOOK_E_MEMORY, "plan: no memory for %u rays", rays);
-    nook_fill_directions(rays, 0, directions);
+    nook_fill_directions(rays, 0, 0, directions);
     for (int i = 0; i <= NOOK_PLAN_SINES; i++) {
         double below = i > 0 ? out->ray_shares[i - 1] : 0.0; /* once all rays are in, they stay in */
         out->ray_shares[i] =

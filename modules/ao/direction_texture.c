@@ -33,16 +33,18 @@ static nook_result make_room(nook_direction_texture *directions, nook_gpu *gpu, 
     return result;
 }
 
-nook_result nook_direction_texture_fit(nook_direction_texture *directions, nook_gpu *gpu, uint32_t rays, uint32_t seed)
+nook_result nook_direction_texture_fit(nook_direction_texture *directions, nook_gpu *gpu, uint32_t rays, uint32_t seed,
+                                       uint32_t part)
 {
-    if (directions->room && directions->rays == rays && directions->seed == seed)
+    if (directions->room && directions->rays == rays && directions->seed == seed && directions->part == part)
         return NOOK_OK;
     nook_result result = make_room(directions, gpu, rays);
     if (result != NOOK_OK)
         return result;
-    nook_fill_directions(rays, seed, directions->values);
+    nook_fill_directions(rays, seed, part, directions->values);
     nook_buffer_update(gpu, directions->buffer, 0, directions->values, bytes_of(rays));
     directions->rays = rays;
     directions->seed = seed;
+    directions->part = part;
     return NOOK_OK;
 }

@@ -252,6 +252,12 @@ nook_result nook_ao_submit_occluders(nook_ao *ao, const nook_ao_occluder *occlud
  */
 nook_result nook_ao_record(nook_ao *ao, const nook_ao_frame *frame);
 
+/**
+ * The next record takes nothing over from those before, whatever ao.reuse and ao.accumulate say: it is the first of others. For what the context cannot
+ * know (a shader that was made anew) and for what must not depend on what was drawn before (a measurement).
+ */
+void nook_ao_forget(nook_ao *ao);
+
 /** Full-resolution R32F visibility of the last records; 1 where there is no geometry. Undefined where nothing was recorded yet. Valid until set_size or destroy. */
 nook_ao_texture nook_ao_visibility(const nook_ao *ao);
 

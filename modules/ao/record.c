@@ -341,15 +341,14 @@ static nook_result trace(nook_ao *ao, const nook_ao_frame *frame, const ao_slot 
     pass->params = slot->buffer;
     bind_pass(pass);
     result = slot->technique->record(slot->state, slot->params, pass);
-    if (reuses && result == NOOK_OK)
-        ao_reuse_keep(ao, frame, pass);
-    return result;
+    return reuses && result == NOOK_OK ? ao_reuse_keep(ao, frame, pass) : result;
 }
 
 /** Everything that the trace has bound is bound again: filter and upscaling came between. */
 static nook_result trace_listed(nook_ao *ao, const ao_slot *slot, nook_ao_pass *pass)
 {
     pass->listed = &ao->refine.listed;
+    pass->part = 0;                                /* they are in no mean, and would flicker with the parts */
     pass->occluders_tested = pass->occluder_count; /* its groups are no tiles of the picture, and read no bins */
     pass->visibility = ao->refine.traced;
     pass->width = ao->refine.traced.width, pass->height = ao->refine.traced.height;

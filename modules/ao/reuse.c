@@ -11,7 +11,10 @@ enum {
     BINDING_BLOCK = 1,
     BINDING_OCCLUDERS = 3,
     BINDING_BEFORE = 4, /**< Depth, normal, visibility and ages of the last trace: 4 to 7. */
-    BINDING_AGES = 1
+    BINDING_AGES = 1,
+    BINDING_CARRIED = 3,
+    BINDING_MEAN_CARRIED = 4, /**< Of shaders/ao/accumulate.comp.glsl, textures. */
+    BINDING_MEAN_AGES = 7
 };
 
 /** Block Reuse of shaders/ao/reuse.comp.glsl, std140. */
@@ -22,7 +25,7 @@ typedef struct reuse_block {
     int32_t period, turn, has_before, stands;
     int32_t moved_count;
     float error;
-    int32_t padding[2];
+    int32_t window, most;
 } reuse_block;
 
 _Static_assert(offsetof(reuse_block, ray_scale) == 96 && sizeof(reuse_block) == 144, "std140 places ray_scale at 96");
@@ -45,10 +48,21 @@ static bool is_whole(const ao_region *region, const nook_ao_pass *pass)
            (uint32_t)region->end[1] == pass->height;
 }
 
+static bool accumulates(const nook_ao *ao)
+{
+    return ao->shared.accumulate > 1;
+}
+
+/** What is traced in its turn has lasted for ao.reuse records as a part of a mean. */
+uint32_t ao_reuse_window(const nook_ao *ao)
+{
+    return (uint32_t)ao->shared.reuse + accumulates(ao);
+}
+
 bool ao_reuse_is_wanted(const nook_ao *ao, const ao_slot *slot)
 {
     const nook_ao_technique *technique = slot->technique;
-    return ao->shared.reuse > 1 && technique->is_reusable && technique->is_reusable(slot->params);
+    return (ao->shared.reuse > 1 || accumulates(ao)) && technique->is_reusable && technique->is_reusable(slot->params);
 }
 
 /* ---- What is kept ------------------------------------------------------------------------------------------------ */
@@ -60,6 +74,7 @@ static void release_textures(ao_reuse *reuse, nook_gpu *gpu)
     nook_texture_destroy(gpu, &reuse->visibility);
     for (int i = 0; i < 2; i++)
         nook_texture_destroy(gpu, &reuse->ages[i]);
+    nook_texture_destroy(gpu, &reuse->carried);
     nook_buffer_destroy(gpu, &reuse->tiles);
 }
 
@@ -109,13 +124,22 @@ static nook_result fit_lists(nook_ao *ao)
     return result;
 }
 
+static nook_result fit_carried(nook_ao *ao)
+{
+    ao_reuse *reuse = &ao->reuse;
+    if (!accumulates(ao) || reuse->carried.id)
+        return NOOK_OK;
+    return nook_texture_create_2d(ao->gpu, GL_R32F, reuse->depth.width, reuse->depth.height, GL_NEAREST,
+                                  &reuse->carried);
+}
+
 static nook_result fit_textures(nook_ao *ao, const nook_ao_pass *pass)
 {
     ao_reuse *reuse = &ao->reuse;
     nook_gpu *gpu = ao->gpu;
     const uint32_t width = pass->width, height = pass->height;
     if (reuse->tiles.id && reuse->depth.width == width && reuse->depth.height == height)
-        return NOOK_OK;
+        return fit_carried(ao);
     release_textures(reuse, gpu);
     reuse->holds = false;
     nook_result result = nook_texture_create_2d(gpu, GL_R32F, width, height, GL_NEAREST, &reuse->depth);
@@ -124,11 +148,11 @@ static nook_result fit_textures(nook_ao *ao, const nook_ao_pass *pass)
     if (result == NOOK_OK)
         result = nook_texture_create_2d(gpu, GL_R32F, width, height, GL_NEAREST, &reuse->visibility);
     for (int i = 0; i < 2 && result == NOOK_OK; i++)
-        result = nook_texture_create_2d(gpu, GL_R8UI, width, height, GL_NEAREST, &reuse->ages[i]);
+        result = nook_texture_create_2d(gpu, GL_R16UI, width, height, GL_NEAREST, &reuse->ages[i]);
     size_t count = (size_t)nook_groups(width, TILE_SIZE) * nook_groups(height, TILE_SIZE);
     if (result == NOOK_OK)
         result = nook_buffer_create(gpu, NULL, sizeof(tiles_head) + count * sizeof(tile_record), &reuse->tiles);
-    return result;
+    return result == NOOK_OK ? fit_carried(ao) : result;
 }
 
 /** Replaces bytes of the settings. @return whether they were these */
@@ -186,7 +210,9 @@ static reuse_block make_block(const nook_ao *ao, const nook_ao_frame *frame, con
     reuse_block block = { .period = ao->shared.reuse,
                           .turn = (int32_t)(reuse->number % (uint32_t)ao->shared.reuse),
                           .moved_count = (int32_t)reuse->moved_count,
-                          .error = ao->shared.reuse_error };
+                          .error = ao->shared.reuse_error,
+                          .window = (int32_t)ao_reuse_window(ao),
+                          .most = ao->shared.accumulate };
     nook_matrix world_from_view, world_from_before;
     if (!reuse->holds || !nook_matrix_inverse_affine(&pass->view_from_world, &world_from_view) ||
         !nook_matrix_inverse_affine(&reuse->view_from_world, &world_from_before))
@@ -218,6 +244,8 @@ static void bind(const nook_ao *ao, const nook_ao_pass *pass)
         nook_bind_texture(ao->gpu, BINDING_BEFORE + i, before[i]);
     nook_bind_image(ao->gpu, 0, pass->visibility, GL_WRITE_ONLY);
     nook_bind_image(ao->gpu, BINDING_AGES, reuse->ages[1], GL_WRITE_ONLY);
+    if (accumulates(ao))
+        nook_bind_image(ao->gpu, BINDING_CARRIED, reuse->carried, GL_WRITE_ONLY);
     nook_bind_storage(ao->gpu, NOOK_AO_BINDING_TILES, reuse->tiles);
     nook_bind_storage(ao->gpu, AO_BINDING_COUNTER, pass->counter);
 }
@@ -227,7 +255,7 @@ static void upload_moved(const nook_ao *ao)
 {
     const ao_reuse *reuse = &ao->reuse;
     const size_t size = reuse->moved_count * sizeof *reuse->moved;
-    const size_t box_count = reuse->moved_count * (size_t)(ao->shared.reuse - 1);
+    const size_t box_count = reuse->moved_count * (size_t)(ao_reuse_window(ao) - 1);
     if (reuse->moved_count)
         nook_buffer_update(ao->gpu, reuse->moved_buffer, 0, reuse->moved, size);
     if (reuse->moved_count && ao->shared.reuse_error > 0.0f)
@@ -237,8 +265,8 @@ static void upload_moved(const nook_ao *ao)
 static nook_result choose_program(const nook_ao *ao, const nook_ao_pass *pass, nook_program *out_program)
 {
     char defines[64];
-    snprintf(defines, sizeof defines, "%s%s", ao->shared.reuse_error > 0.0f ? "#define BOUNDED\n" : "",
-             nook_ao_pass_defines(pass, 0));
+    snprintf(defines, sizeof defines, "%s%s%s", ao->shared.reuse_error > 0.0f ? "#define BOUNDED\n" : "",
+             accumulates(ao) ? "#define ACCUMULATE\n" : "", nook_ao_pass_defines(pass, 0));
     return nook_program_compute(ao->gpu, "shaders/ao/reuse.comp.glsl", defines, out_program);
 }
 
@@ -261,6 +289,12 @@ static nook_result dispatch(nook_ao *ao, const nook_ao_frame *frame, const nook_
     return NOOK_OK;
 }
 
+/** All at once have the first part of the sequence, then those that come in their turns the next, and so on: so each value gets all parts. */
+static uint32_t part_of(const nook_ao *ao)
+{
+    return nook_groups(ao->reuse.traces, (uint32_t)ao->shared.reuse) % (uint32_t)ao->shared.accumulate;
+}
+
 nook_result ao_reuse_choose(nook_ao *ao, const nook_ao_frame *frame, const ao_slot *slot, nook_ao_pass *pass)
 {
     ao_reuse *reuse = &ao->reuse;
@@ -273,13 +307,17 @@ nook_result ao_reuse_choose(nook_ao *ao, const nook_ao_frame *frame, const ao_sl
         result = fit_textures(ao, pass);
     if (result == NOOK_OK)
         result = take_settings(ao, slot);
+    if (!reuse->holds)
+        reuse->traces = 0;
     if (result == NOOK_OK) {
         ao_collect_moved(ao, &pass->view_from_world, reuse->holds);
         result = dispatch(ao, frame, pass);
     }
     reuse->holds = false; /* until the trace has been */
-    if (result == NOOK_OK)
+    if (result == NOOK_OK) {
         pass->tiles = &reuse->tiles;
+        pass->part = part_of(ao);
+    }
     return result;
 }
 
@@ -291,12 +329,34 @@ static void copy(nook_gpu *gpu, nook_texture from, nook_texture to)
                               (GLsizei)from.height, 1);
 }
 
-void ao_reuse_keep(nook_ao *ao, const nook_ao_frame *frame, const nook_ao_pass *pass)
+static nook_result make_means(nook_ao *ao, const nook_ao_pass *pass)
+{
+    const ao_reuse *reuse = &ao->reuse;
+    nook_program program;
+    nook_result result =
+        nook_program_compute(ao->gpu, "shaders/ao/accumulate.comp.glsl", nook_ao_pass_defines(pass, 0), &program);
+    if (result != NOOK_OK)
+        return result;
+    nook_bind_uniform(ao->gpu, 0, pass->frame);
+    nook_bind_texture(ao->gpu, BINDING_MEAN_CARRIED, reuse->carried);
+    nook_bind_texture(ao->gpu, BINDING_MEAN_AGES, reuse->ages[1]);
+    nook_bind_image(ao->gpu, 0, pass->visibility, GL_READ_WRITE);
+    nook_bind_storage(ao->gpu, AO_BINDING_COUNTER, pass->counter);
+    uint32_t groups[2];
+    nook_ao_pass_groups(pass, TILE_SIZE, TILE_SIZE, groups);
+    nook_dispatch(ao->gpu, program, groups[0], groups[1], 1);
+    return NOOK_OK;
+}
+
+nook_result ao_reuse_keep(nook_ao *ao, const nook_ao_frame *frame, const nook_ao_pass *pass)
 {
     ao_reuse *reuse = &ao->reuse;
     const nook_texture ages = reuse->ages[0];
     if (!pass->tiles)
-        return;
+        return NOOK_OK;
+    nook_result result = accumulates(ao) ? make_means(ao, pass) : NOOK_OK;
+    if (result != NOOK_OK)
+        return result;
     copy(ao->gpu, pass->depth, reuse->depth);
     copy(ao->gpu, pass->normal, reuse->normal);
     copy(ao->gpu, pass->visibility, reuse->visibility);
@@ -305,13 +365,22 @@ void ao_reuse_keep(nook_ao *ao, const nook_ao_frame *frame, const nook_ao_pass *
     memcpy(reuse->view_from_world.m, frame->view_from_world, sizeof reuse->view_from_world.m);
     memcpy(reuse->clip_from_view.m, frame->clip_from_view, sizeof reuse->clip_from_view.m);
     reuse->number++;
+    reuse->traces++;
     reuse->holds = true;
+    return NOOK_OK;
+}
+
+void nook_ao_forget(nook_ao *ao)
+{
+    ao->reuse.holds = false;
 }
 
 uint64_t ao_reuse_bytes(const ao_reuse *reuse)
 {
-    enum { BYTES = 4 + 4 + 4 + 2 * 1 }; /* R32F, RG16, R32F, twice R8UI */
-    return reuse->holds ? (uint64_t)reuse->depth.width * reuse->depth.height * BYTES : 0;
+    enum { BYTES = 4 + 4 + 4 + 2 * 2, CARRIED_BYTES = 4 }; /* R32F, RG16, R32F, twice R16UI; R32F */
+    const uint64_t pixels = (uint64_t)reuse->depth.width * reuse->depth.height;
+    const uint64_t bytes = reuse->carried.id ? BYTES + CARRIED_BYTES : BYTES;
+    return reuse->holds ? pixels * bytes : 0;
 }
 
 uint32_t ao_reuse_count_traced(const nook_ao *ao)

@@ -108,14 +108,14 @@ static void set_box(const ao_box *box, bool moved, ao_moved_box *out)
  * @param still  records since the last change; 0: the one at hand changed it
  */
 static void add_boxes(ao_reuse *reuse, const nook_matrix *view_from_world, uint32_t place, uint32_t still,
-                      uint32_t period)
+                      uint32_t window)
 {
     ao_gpu_occluder *moved = &reuse->moved[reuse->moved_count], unused;
-    ao_moved_box *boxes = &reuse->boxes[reuse->moved_count * (period - 1)];
+    ao_moved_box *boxes = &reuse->boxes[reuse->moved_count * (window - 1)];
     ao_box box = { { INFINITY, INFINITY, INFINITY }, { -INFINITY, -INFINITY, -INFINITY } };
     nook_matrix voxel_from_world, last_from_voxel = nook_matrix_identity();
     bool found = false;
-    for (uint32_t ago = 0; ago < period; ago++) {
+    for (uint32_t ago = 0; ago < window; ago++) {
         const ao_marched *marched = ago <= reuse->run ? marched_at(reuse, ago, place) : NULL;
         if (compose(view_from_world, marched, found ? &unused : moved)) {
             nook_matrix from_voxel = world_from_voxel(marched);
@@ -139,10 +139,10 @@ static void add_boxes(ao_reuse *reuse, const nook_matrix *view_from_world, uint3
 }
 
 /** Longest of the lists that a value may be as old as. */
-static uint32_t count_places(ao_reuse *reuse, uint32_t period)
+static uint32_t count_places(ao_reuse *reuse, uint32_t window)
 {
     uint32_t count = 0;
-    for (uint32_t ago = 0; ago < period && ago <= reuse->run; ago++) {
+    for (uint32_t ago = 0; ago < window && ago <= reuse->run; ago++) {
         uint32_t there = list_of(reuse, ago)->count;
         count = there > count ? there : count;
     }
@@ -152,21 +152,21 @@ static uint32_t count_places(ao_reuse *reuse, uint32_t period)
 void ao_collect_moved(nook_ao *ao, const nook_matrix *view_from_world, bool compare)
 {
     ao_reuse *reuse = &ao->reuse;
-    const uint32_t period = (uint32_t)ao->shared.reuse;
+    const uint32_t window = ao_reuse_window(ao);
     const bool bounded = ao->shared.reuse_error > 0.0f;
-    assert(period <= AO_REUSE_MOST);
+    assert(window <= AO_REUSE_MOST);
     remember(ao, list_of(reuse, 0));
     reuse->moved_count = 0;
     reuse->run = compare ? reuse->run + 1 : 0;
     if (!compare)
         memset(reuse->still, LONG_STILL, ao->occluder_max);
-    const uint32_t count = compare ? count_places(reuse, period) : 0;
+    const uint32_t count = compare ? count_places(reuse, window) : 0;
     for (uint32_t i = 0; i < count; i++) {
         const ao_marched *now = marched_at(reuse, 0, i), *before = marched_at(reuse, 1, i);
         bool same = now && before ? is_same(now, before) : now == before;
         reuse->still[i] = same ? (uint8_t)(reuse->still[i] + (reuse->still[i] < LONG_STILL)) : 0;
-        if (bounded && reuse->still[i] + 1u < period)
-            add_boxes(reuse, view_from_world, i, reuse->still[i], period);
+        if (bounded && reuse->still[i] + 1u < window)
+            add_boxes(reuse, view_from_world, i, reuse->still[i], window);
         if (!bounded && !same) {
             add_whole(reuse, view_from_world, now);
             add_whole(reuse, view_from_world, before);

@@ -25,8 +25,9 @@ void nook_cosine_direction(const float point[2], float out_direction[3]);
 /** Which block the pixel (x, y) takes, by Bayer's 4x4 matrix (1973): block_of() of shaders/ao/blocks.glsl. */
 uint32_t nook_direction_block(uint32_t x, uint32_t y);
 
-/** Fills 16 * rays directions as xyz and 0; block b starts at out + b * rays * 4. */
-void nook_fill_directions(uint32_t rays, uint32_t seed, float *out);
+/** Fills 16 * rays directions as xyz and 0; block b starts at out + b * rays * 4. Of part 0 they are the first points;
+    each part takes as many that follow, dealt out so that a block's of several parts are evenly spread, too. */
+void nook_fill_directions(uint32_t rays, uint32_t seed, uint32_t part, float *out);
 
 #ifdef __cplusplus
 }

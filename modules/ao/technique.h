@@ -14,7 +14,7 @@
 extern "C" {
 #endif
 
-#define NOOK_AO_TECHNIQUE_VERSION 15
+#define NOOK_AO_TECHNIQUE_VERSION 16
 
 /** A box of voxels. */
 typedef struct nook_ao_box {
@@ -74,6 +74,9 @@ typedef struct nook_ao_pass {
     double r_max;
     int falloff;   /**< Index into the choices of ao.falloff: shaders/ao/falloff.glsl has the formulas. */
     uint32_t seed; /**< From the frame index. */
+    /** Which part of a sequence of rays is traced, 0 unless the technique is reusable: nook_fill_directions of modules/ao/sampling.h. All parts
+        together are one sequence of as many times the rays. */
+    uint32_t part;
     double falloff_tau;
     /** View position of a pixel: (ndc * ray_scale + ray_offset, -1) * depth, with ndc = 2 (pixel + 0.5) / size - 1. */
     double ray_scale[2], ray_offset[2];
@@ -131,8 +134,8 @@ typedef struct nook_ao_technique {
     /** NOOK_AO_IN_VOLUMES: whether record reads pass->bins with these parameters; else none are made. NULL: never. */
     uint32_t (*reads_bins)(const void *params);
     /** 1: with these parameters a pixel's visibility follows from its surface, the volumes within r_max and the seed, wherever the
-        camera is; and record traces no more than pass->tiles where that is given. So it can be taken over from the frame before:
-        ao.reuse. NULL: never. */
+        camera is; and record traces no more than pass->tiles where that is given. So it can be taken over from the frame before,
+        ao.reuse, and be a mean over frames, ao.accumulate. NULL: never. */
     uint32_t (*is_reusable)(const void *params);
     /** Of an exact one: whether it is filtered with these parameters. NULL: never. */
     uint32_t (*is_filtered)(const void *params);

@@ -58,7 +58,7 @@ static grid_block block_of(const hao_grid *grid)
 /** Everything that the trace reads. */
 static nook_result prepare(hao_state *s, const hao_params *p, const nook_ao_pass *pass)
 {
-    nook_result result = nook_direction_texture_fit(&s->directions, pass->gpu, (uint32_t)p->rays, pass->seed);
+    nook_result result = nook_direction_texture_fit(&s->directions, pass->gpu, (uint32_t)p->rays, pass->seed, 0);
     if (result == NOOK_OK)
         result = hao_meshes_update(&s->meshes, pass);
     if (result == NOOK_OK)

@@ -75,7 +75,7 @@ static void fill_rays(const reference_params *params, void *memory, nook_trace_w
 {
     out->count = (uint32_t)params->rays;
     if (is_filtered(params)) {
-        nook_fill_directions(out->count, out->seed, memory);
+        nook_fill_directions(out->count, out->seed, 0, memory);
         out->directions = (const float(*)[4])memory;
     } else {
         nook_ray_points_fill(memory, out->count);

@@ -21,7 +21,7 @@ static nook_result record(void *state, const void *params, const nook_ao_pass *p
 {
     ssao_state *s = state;
     const ssao_params *p = params;
-    nook_result result = nook_direction_texture_fit(&s->directions, pass->gpu, (uint32_t)p->samples, pass->seed);
+    nook_result result = nook_direction_texture_fit(&s->directions, pass->gpu, (uint32_t)p->samples, pass->seed, 0);
     if (result != NOOK_OK)
         return result;
     nook_bind_texture(pass->gpu, BINDING_DIRECTIONS, s->directions.texture);

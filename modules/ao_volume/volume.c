@@ -247,7 +247,7 @@ static nook_result record(void *state, const void *params, const nook_ao_pass *p
         return NOOK_OK;
     }
     volume_task task = make_task(p, pass);
-    nook_result result = nook_direction_texture_fit(&s->directions, pass->gpu, task.most.rays, pass->seed);
+    nook_result result = nook_direction_texture_fit(&s->directions, pass->gpu, task.most.rays, pass->seed, pass->part);
     if (result == NOOK_OK)
         result = choose_program(s, p, pass, &task.program);
     if (result != NOOK_OK)

@@ -1,7 +1,9 @@
 // Before a trace: which of its pixels take over what was traced in the frames before, and which are listed to be traced.
 // docs/techniques.md, Reuse. Occluders here are those that have moved, as they are and as they were. Define: BOUNDED, what moves may change
-// a value by reuse.error, and occluders stand there once, with the boxes that they have been in; else what is near them is traced.
+// a value by reuse.error, and occluders stand there once, with the boxes that they have been in; else what is near them is traced. Define:
+// ACCUMULATE, what is traced becomes part of a mean (accumulate.comp.glsl).
 #include "ao/tile_list.glsl"
+#include "ao/ages.glsl"
 #include "ao/counter.glsl"
 #ifdef BOUNDED
 #include "ao/box_weight.glsl"
@@ -18,6 +20,8 @@ layout(std140, binding = 1) uniform Reuse { // struct reuse_block of modules/ao/
     int stands;                 // both frames are seen alike: a pixel is its own predecessor
     int moved_count;
     float error;                // by which what moves may change a value at the most
+    int window;                 // frames of which boxes are known, this one too
+    int most;                   // traces that a value is the mean of at most
 } reuse;
 layout(binding = 0) uniform sampler2D depth_texture;
 layout(binding = 1) uniform sampler2D normal_texture;
@@ -26,7 +30,13 @@ layout(binding = 5) uniform sampler2D normal_before;
 layout(binding = 6) uniform sampler2D visibility_before;
 layout(binding = 7) uniform usampler2D age_before;
 layout(binding = 0, r32f) uniform writeonly image2D visibility_image;
-layout(binding = 1, r8ui) uniform writeonly uimage2D age_image; // ages_packed()
+layout(binding = 1, r16ui) uniform writeonly uimage2D age_image; // ages.glsl
+#ifdef ACCUMULATE
+const bool ACCUMULATES = true;
+layout(binding = 3, r32f) uniform writeonly image2D carried_image; // what is traced here becomes part of
+#else
+const bool ACCUMULATES = false;
+#endif
 layout(std430, binding = 3) buffer Tiles { // tiles.glsl
     uint groups_x, groups_y, groups_z, count;
     Tile tiles[];
@@ -82,8 +92,8 @@ bool may_darken(Occluder o, vec3 position, vec3 normal)
     return is_near(o, voxel) && dot(n, 0.5 * o.size.xyz - voxel) + dot(abs(n), 0.5 * o.size.xyz) > 0.0;
 }
 
-// Uniform control flow.
-bool may_have_changed(bool wanted, int since, vec3 position, vec3 normal)
+// Uniform control flow. @return 1 or 0
+float change_since(bool wanted, int since, vec3 position, vec3 normal)
 {
     bool found = false;
     for (int chunk = 0; chunk < reuse.moved_count; chunk += CHUNK) {
@@ -92,14 +102,14 @@ bool may_have_changed(bool wanted, int since, vec3 position, vec3 normal)
         for (uint i = 0u; i < count && !found; i++)
             found = may_darken(occluder_at(tile_items[i]), position, normal);
     }
-    return found;
+    return found ? 1.0 : 0.0;
 }
 #else
 // What an occluder that has moved in the last frames can have changed since the one `since` frames ago at the most: the part of the sky that
 // the box takes in which it was all the time.
 float change_by(int moved, int since, vec3 position, mat3 plane_from_view)
 {
-    int row = reuse.moved_count * OCCLUDER_ROWS + (moved * (reuse.period - 1) + since - 1) * 2;
+    int row = reuse.moved_count * OCCLUDER_ROWS + (moved * (reuse.window - 1) + since - 1) * 2;
     vec4 low = texelFetch(occluder_rows, row);
     if (low.w == 0.0)
         return 0.0;
@@ -115,8 +125,8 @@ float change_by(int moved, int since, vec3 position, mat3 plane_from_view)
     return box_weight(low.xyz, high, axes);
 }
 
-// Uniform control flow.
-bool may_have_changed(bool wanted, int since, vec3 position, vec3 normal)
+// Uniform control flow. @return what all of them can have changed together; no more than reuse.error is right
+float change_since(bool wanted, int since, vec3 position, vec3 normal)
 {
     float sum = 0.0;
     vec3 tangent, bitangent;
@@ -128,15 +138,9 @@ bool may_have_changed(bool wanted, int since, vec3 position, vec3 normal)
         for (uint i = 0u; i < count && sum <= reuse.error; i++)
             sum += change_by(tile_items[i], since, position, plane_from_view);
     }
-    return !(sum <= reuse.error); // true for NaN
+    return sum;
 }
 #endif
-
-// The age by which a pixel comes in its turn, and the frames since it was traced, which are no more.
-uint ages_packed(uint age, uint since)
-{
-    return age | since << 4;
-}
 
 // A tile's pixels come in turns. One that is traced out of turn is traced again when its tile's turn comes, so that each frame keeps
 // its share of the work.
@@ -164,32 +168,60 @@ void list_pixels(bool traced)
     }
 }
 
+#ifdef ACCUMULATE
+// Is what is seen, from where it was seen then, the same to the last bit? Then its mean of as many traces as it may have stays, for as long as
+// nothing moves: it is as good as it gets, and does not flicker. A surface that creeps has other bits.
+bool is_as_it_was(ivec2 pixel, float depth)
+{
+    return reuse.stands != 0 && fetch_trace(depth_before, pixel).r == depth &&
+           fetch_trace(normal_before, pixel).xy == fetch_trace(normal_texture, pixel).xy;
+}
+#endif
+
 void main()
 {
     ivec2 pixel = invocation_pixel(), q;
     bool on_image = is_wanted(pixel);
     float depth = on_image ? fetch_trace(depth_texture, pixel).r : 0.0, visibility = 1.0;
     bool seen = depth > 0.0, traced = seen;
-    uint age = age_out_of_turn(), since = 0u;
+    uint age = age_out_of_turn(), since = 0u, traces = 0u;
     vec3 position = view_position(pixel, depth);
     vec3 normal = on_image ? nook_octahedral_decode(fetch_trace(normal_texture, pixel).xy) : vec3(0.0, 0.0, 1.0);
     vec3 before = rows_apply(reuse.before_from_view, vec4(position, 1.0));
+    uint ages = 0u; // of the predecessor
     if (seen && reuse.has_before != 0 && predecessor(pixel, before, normal, q)) {
         visibility = fetch_trace(visibility_before, q).r;
-        uint ages = texelFetch(age_before, q, 0).r;
-        age = (ages & 15u) + 1u;
-        since = (ages >> 4) + 1u;
+        ages = texelFetch(age_before, q, 0).r;
+        age = age_of(ages) + 1u;
+        since = since_of(ages) + 1u;
+        traces = mean_of(ages);
         traced = age >= uint(reuse.period);
         age = traced ? 0u : age;
     }
-    bool lasts = seen && !traced;
-    if (tile_begin(depth, position) && may_have_changed(lasts, int(since), position, normal)) {
+    bool wanted = traces > 0u && (ACCUMULATES || !traced); // what is traced is a part of a mean, too
+    float change = tile_begin(depth, position) ? change_since(wanted, int(since), position, normal) : 0.0;
+    if (wanted && !(change <= reuse.error)) { // also NaN
+        age = traced ? age : age_out_of_turn();
         traced = true;
-        age = age_out_of_turn();
+        traces = 0u;
+    }
+#ifdef ACCUMULATE
+    if (wanted && change == 0.0 && traces == uint(reuse.most) && is_as_it_was(pixel, depth)) {
+        age = age_of(ages);
+        since = since_of(ages);
+        traced = false;
+    }
+#endif
+    if (traced) {
+        since = 0u;
+        traces = min(traces + 1u, uint(reuse.most));
     }
     if (on_image) {
         imageStore(visibility_image, pixel, vec4(visibility));
-        imageStore(age_image, pixel, uvec4(ages_packed(age, traced ? 0u : since)));
+        imageStore(age_image, pixel, uvec4(ages_packed(age, since, traces)));
+#ifdef ACCUMULATE
+        imageStore(carried_image, pixel, vec4(visibility));
+#endif
     }
     list_pixels(traced);
     add_counts();

@@ -1,6 +1,6 @@
 /* ao.reuse: what stands still takes over its value from the last frame, what moves is as without. */
 #include "modules/ao/technique.h"
-#include "tests/support/ao_screen.h"
+#include "tests/support/ao_room.h"
 #include "tests/support/log_capture.h"
 #include <math.h>
 #include <string.h>
@@ -10,75 +10,13 @@
 #include <stddef.h>
 #include <cmocka.h>
 
-enum { WIDTH = 67, HEIGHT = 45, PIXELS = WIDTH * HEIGHT, MESHES = 3, PERIOD = 4 };
+enum { WIDTH = AO_ROOM_WIDTH, HEIGHT = AO_ROOM_HEIGHT, PIXELS = WIDTH * HEIGHT, MESHES = AO_ROOM_MESHES, PERIOD = 4 };
+
+typedef ao_room room;
 
 static const char *const kinds[] = { "binary", "density", "surfel", "distance" };
 static const char *const combines[] = { "union", "multiply" };
 static const char *const upscales[] = { "direct", "bilinear" };
-
-/** The view, and the bodies of its room: a box that moves, one that stands, a floor. */
-typedef struct room {
-    nook_fixture_view *view;
-    nook_fixture_mesh meshes[MESHES];
-} room;
-
-static void look(room *r, double x, double y)
-{
-    r->view->view_from_world =
-        nook_matrix_look_at((double[]){ x - 1.5, y - 2, 1.5 }, (double[]){ x + 0.1, y, 0.2 }, (double[]){ 0, 0, 1 });
-}
-
-/** The G-buffer of the bodies where their occluders are. */
-static void draw(room *r)
-{
-    nook_fixture_view_clear(r->view);
-    for (uint32_t i = 0; i < r->view->occluder_count; i++) {
-        nook_matrix world_from_mesh;
-        memcpy(world_from_mesh.m, r->view->occluders[i].world_from_mesh, sizeof world_from_mesh.m);
-        nook_fixture_mesh moved = { 0 };
-        const nook_fixture_mesh *mesh = &r->meshes[i % MESHES];
-        for (uint32_t k = 0; k + 2 < mesh->index_count; k += 3) {
-            double corners[3][3];
-            for (int c = 0; c < 3; c++) {
-                const float *p = mesh->positions + 3 * (size_t)mesh->indices[k + (uint32_t)c];
-                nook_matrix_apply_point(&world_from_mesh, (double[]){ p[0], p[1], p[2] }, corners[c]);
-            }
-            nook_fixture_add_triangle(&moved, corners[0], corners[1], corners[2]);
-        }
-        ao_view_draw(r->view, &moved);
-        nook_fixture_mesh_free(&moved);
-    }
-}
-
-static int setup(void **state)
-{
-    static room r;
-    static const double boxes[][2][3] = { { { -0.5, -0.6, 0 }, { 0.1, 0.0, 0.5 } },
-                                          { { 0.15, -0.4, 0 }, { 0.6, 0.3, 0.3 } } };
-    r = (room){ .view = ao_view_create(WIDTH, HEIGHT) };
-    ao_screen_look(r.view, (double[]){ -1.5, -2, 1.5 }, (double[]){ 0.1, 0, 0.2 }, 1.0, 0.45);
-    for (size_t i = 0; i < MESHES; i++) {
-        if (i == 2)
-            nook_fixture_add_quad(&r.meshes[i], (double[]){ -1, -1, 0 }, (double[]){ 2, 0, 0 }, (double[]){ 0, 2, 0 });
-        else
-            nook_fixture_add_box(&r.meshes[i], boxes[i][0], boxes[i][1], 63);
-        ao_view_add(r.view, &r.meshes[i], 24);
-    }
-    ao_view_param(r.view, "volume.rays", "2");
-    ao_view_param(r.view, "ao.filter", "tile");
-    draw(&r);
-    *state = &r;
-    return 0;
-}
-
-static int teardown(void **state)
-{
-    room *r = *state;
-    for (size_t i = 0; i < MESHES; i++)
-        nook_fixture_mesh_free(&r->meshes[i]);
-    ao_view_destroy(r->view);
-    return 0;
-}
 
 static void set_reuse(const room *r, int frames)
 {
@@ -217,11 +155,11 @@ static void test_after_a_body_has_moved_the_picture_is_that_of_a_frame_without_r
         for (int step = 1; step <= 3; step++) {
             warm_up(r);
             r->view->occluders[0].world_from_mesh[12] = 0.02 * step;
-            draw(r);
+            ao_room_draw(r);
             expect_as_without(r, kinds[k]);
         }
         r->view->occluders[0].world_from_mesh[12] = 0.0;
-        draw(r);
+        ao_room_draw(r);
     }
     ao_view_param(r->view, "volume.kind", "binary");
 }
@@ -229,7 +167,7 @@ static void test_after_a_body_has_moved_the_picture_is_that_of_a_frame_without_r
 static void test_the_statistics_count_what_is_kept_of_each_trace_pixel(void **state)
 {
     const room *r = *state;
-    enum { KEPT = 14 }; /* depth 4, normal 4, visibility 4, two ages */
+    enum { KEPT = 16 }; /* depth 4, normal 4, visibility 4, twice ages of 2 */
     nook_ao_statistics without, with;
     set_reuse(r, 1);
     ao_view_param(r->view, "ao.scale", "full");
@@ -337,12 +275,12 @@ static void test_surfaces_that_move_without_a_volume_take_over_nothing_of_what_w
     warm_up(r);
     for (int step = 1; step <= 3; step++) { /* what is drawn moves away; what is marched stays */
         *x = -0.4 * step;
-        draw(r);
+        ao_room_draw(r);
         *x = 0.0;
         expect_as_without(r, "a surface that has moved");
         warm_up(r);
     }
-    draw(r);
+    ao_room_draw(r);
 }
 
 /* ---- What is taken over ------------------------------------------------------------------------------------------ */
@@ -352,8 +290,8 @@ static void test_every_pixel_is_traced_anew_within_as_many_frames_as_said(void *
     room *r = *state;
     set_reuse(r, PERIOD);
     for (int i = 0; i < 9; i++) { /* values that wander over the picture, of all ages */
-        look(r, 0.03 * i, 0.0);
-        draw(r);
+        ao_room_look(r, 0.03 * i, 0.0);
+        ao_room_draw(r);
         ao_view_record(r->view, "volume");
     }
     float with[PERIOD][PIXELS];
@@ -367,8 +305,8 @@ static void test_every_pixel_is_traced_anew_within_as_many_frames_as_said(void *
     assert_memory_not_equal(with[0], r->view->visibility, sizeof with[0]);
     assert_memory_equal(with[PERIOD - 1], r->view->visibility, sizeof with[0]);
     r->view->index = 0;
-    look(r, 0.0, 0.0);
-    draw(r);
+    ao_room_look(r, 0.0, 0.0);
+    ao_room_draw(r);
 }
 
 static void test_other_parameters_take_nothing_over(void **state)
@@ -397,24 +335,24 @@ static void test_nothing_of_the_old_picture_is_there_after_a_cut_of_the_camera(v
     for (uint32_t i = 0; i < MESHES; i++) /* the same room elsewhere, its pixels in the same places */
         assert_int_equal(nook_fixture_view_add_instance(view, i, &there), NOOK_OK);
     view->occluders[MESHES].world_from_mesh[12] += 0.2;
-    draw(r);
+    ao_room_draw(r);
     set_reuse(r, PERIOD);
     warm_up(r);
-    look(r, -1000.0, 0.0);
-    draw(r);
+    ao_room_look(r, -1000.0, 0.0);
+    ao_room_draw(r);
     ao_view_record(view, "volume");
     uint32_t cut = traced(r);
-    look(r, 0.0, 0.0);
-    draw(r);
+    ao_room_look(r, 0.0, 0.0);
+    ao_room_draw(r);
     warm_up(r);
-    look(r, -1000.0, 0.0);
-    draw(r);
+    ao_room_look(r, -1000.0, 0.0);
+    ao_room_draw(r);
     expect_as_without(r, "after a cut");
     ao_view_record(view, "volume"); /* the first after one without: all of it */
     assert_int_equal(cut, traced(r));
     view->occluder_count = MESHES;
-    look(r, 0.0, 0.0);
-    draw(r);
+    ao_room_look(r, 0.0, 0.0);
+    ao_room_draw(r);
 }
 
 /** A pixel of before then stands for 5 x 5, of which those are too far from it that lie more than one away: 16 of 25. */
@@ -425,10 +363,10 @@ static void test_coming_close_does_not_spread_a_pixel_over_many(void **state)
     ao_view_param(r->view, "ao.scale", "full");
     r->view->view_from_world =
         nook_matrix_look_at((double[]){ -7.9, -10.0, 6.7 }, (double[]){ 0.1, 0, 0.2 }, (double[]){ 0, 0, 1 });
-    draw(r);
+    ao_room_draw(r);
     warm_up(r);
-    look(r, 0.0, 0.0);
-    draw(r);
+    ao_room_look(r, 0.0, 0.0);
+    ao_room_draw(r);
     ao_view_record(r->view, "volume");
     uint32_t close = traced(r);
     r->view->index = 3; /* all of it, to know how many there are */
@@ -448,11 +386,11 @@ static void test_another_size_takes_nothing_over(void **state)
     set_reuse(r, PERIOD);
     warm_up(r);
     ao_view_resize(r->view, 50, 34);
-    draw(r);
+    ao_room_draw(r);
     expect_as_without(r, "50 x 34");
     warm_up(r);
     ao_view_resize(r->view, WIDTH, HEIGHT);
-    draw(r);
+    ao_room_draw(r);
     expect_as_without(r, "the first size");
 }
 
@@ -496,8 +434,8 @@ static double walk(room *r, int reuse, float truths[STEPS][PIXELS], double *out_
     *out_traced = 0.0;
     set_reuse(r, reuse);
     for (int i = 0; i < STEPS; i++) {
-        look(r, 0.012 * i, 0.009 * i); /* as 1.4 m/s in a hall five times as large */
-        draw(r);
+        ao_room_look(r, 0.012 * i, 0.009 * i); /* as 1.4 m/s in a hall five times as large */
+        ao_room_draw(r);
         ao_view_record(r->view, "volume");
         *out_traced += i > 0 ? (double)traced(r) / (STEPS - 1) : 0.0;
         sum += squares(r->view, truths[i]);
@@ -513,8 +451,8 @@ static void test_walking_costs_less_and_its_error_is_at_most_a_fifth_larger(void
     ao_view_param(r->view, "ao.scale", "full");
     ao_view_param(r->view, "reference.rays", "64");
     for (int i = 0; i < STEPS; i++) {
-        look(r, 0.012 * i, 0.009 * i); /* as 1.4 m/s in a hall five times as large */
-        draw(r);
+        ao_room_look(r, 0.012 * i, 0.009 * i); /* as 1.4 m/s in a hall five times as large */
+        ao_room_draw(r);
         ao_view_record(r->view, "reference");
         memcpy(truths[i], r->view->visibility, sizeof truths[i]);
     }
@@ -525,8 +463,8 @@ static void test_walking_costs_less_and_its_error_is_at_most_a_fifth_larger(void
     all = traced(r);
     r->view->index = 0;
     ao_view_param(r->view, "volume.rays", "2");
-    look(r, 0.0, 0.0);
-    draw(r);
+    ao_room_look(r, 0.0, 0.0);
+    ao_room_draw(r);
     print_message("RMSE %.4f without, %.4f with; %.0f of %.0f pixels traced\n", without, with, some, all);
     assert_true(none > 1e6 && with > 0.0 && with < 1.2 * without);
     assert_true(some > 0.0 && some < 0.4 * all);
@@ -573,5 +511,5 @@ int main(void)
         cmocka_unit_test(test_walking_costs_less_and_its_error_is_at_most_a_fifth_larger),
         cmocka_unit_test(test_a_number_of_frames_that_is_none_is_refused),
     };
-    return cmocka_run_group_tests(tests, setup, teardown);
+    return cmocka_run_group_tests(tests, ao_room_setup, ao_room_teardown);
 }

@@ -61,8 +61,55 @@ static float *fill(uint32_t rays, uint32_t seed)
 {
     float *directions = malloc((size_t)rays * NOOK_DIRECTION_BLOCKS * 4 * sizeof *directions);
     assert_non_null(directions);
-    nook_fill_directions(rays, seed, directions);
+    nook_fill_directions(rays, seed, 0, directions);
     return directions;
+}
+
+/** The directions of one block of 2^k parts by their place on the square, counted in 2^-a by 2^-(m-a) boxes. @return boxes that hold none */
+static uint32_t count_empty_boxes(uint32_t rays, uint32_t m, uint32_t block, uint32_t a)
+{
+    uint32_t parts = (1u << m) / rays, empty = 0;
+    uint8_t hits[256] = { 0 };
+    float *directions = malloc((size_t)rays * NOOK_DIRECTION_BLOCKS * 4 * sizeof *directions);
+    assert_non_null(directions);
+    assert_true(m <= 8);
+    for (uint32_t part = 0; part < parts; part++) {
+        nook_fill_directions(rays, seeds[3], part, directions); /* shifted: no point lies on an edge */
+        for (uint32_t i = 0; i < rays; i++) {
+            const float *d = directions + (block * rays + i) * 4;
+            double turn = atan2((double)d[1], (double)d[0]) / (2.0 * NOOK_PI);
+            double square[2] = { (double)(d[0] * d[0] + d[1] * d[1]), turn < 0.0 ? turn + 1.0 : turn };
+            uint32_t column = (uint32_t)fmin(square[0] * (1u << a), (1u << a) - 1u);
+            uint32_t row = (uint32_t)fmin(square[1] * (1u << (m - a)), (1u << (m - a)) - 1u);
+            hits[(row << a) + column]++;
+        }
+    }
+    free(directions);
+    for (uint32_t i = 0; i < 1u << m; i++)
+        empty += hits[i] == 0;
+    return empty;
+}
+
+/** Without moves between blocks they would all lie in a sixteenth of one axis. */
+static void test_sampling_puts_one_point_of_a_block_over_16_parts_in_every_elementary_box(void **state)
+{
+    (void)state;
+    for (uint32_t bits = 0; bits <= 4; bits++) {
+        const uint32_t m = bits + 4, first = bits <= 2 ? 0 : m; /* of 8 and 16 rays each along the first axis only */
+        for (uint32_t block = 0; block < NOOK_DIRECTION_BLOCKS; block++) {
+            for (uint32_t a = first; a <= m; a++)
+                assert_int_equal(count_empty_boxes(1u << bits, m, block, a), 0);
+        }
+    }
+}
+
+static void test_sampling_puts_one_point_of_all_blocks_of_a_part_in_every_elementary_box(void **state)
+{
+    (void)state;
+    for (uint32_t m = 0; m <= 4; m++) {
+        for (uint32_t part = 0; part < 64; part++)
+            expect_one_point_in_every_elementary_box(part << (m + 4), m + 4, 0);
+    }
 }
 
 static void test_sampling_directions_are_unit_and_above_the_horizon(void **state)
@@ -131,6 +178,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_sampling_puts_one_point_of_a_block_in_every_elementary_box),
         cmocka_unit_test(test_sampling_puts_one_point_of_all_blocks_in_every_elementary_box),
+        cmocka_unit_test(test_sampling_puts_one_point_of_a_block_over_16_parts_in_every_elementary_box),
+        cmocka_unit_test(test_sampling_puts_one_point_of_all_blocks_of_a_part_in_every_elementary_box),
         cmocka_unit_test(test_sampling_directions_are_unit_and_above_the_horizon),
         cmocka_unit_test(test_sampling_directions_differ_from_seed_to_seed),
         cmocka_unit_test(test_sampling_of_each_block_integrates_the_cosine_hemisphere),

@@ -93,7 +93,7 @@ static void test_no_cone_holds_more_rays_than_the_share_says(void **state)
 {
     (void)state;
     float directions[BLOCKS * RAYS * 4];
-    nook_fill_directions(RAYS, 0, directions);
+    nook_fill_directions(RAYS, 0, 0, directions);
     double before = 0.0;
     for (double sine = 0.02; sine < 0.75; sine *= 1.5) {
         double share = nook_plan_ray_share(directions, BLOCKS, RAYS, sine), counted = counted_share(directions, sine);
