@@ -221,6 +221,37 @@ static void test_only_what_is_near_a_body_that_moves_begins_anew(void **state)
     r->view->occluders[0].world_from_mesh[12] = 0.0;
 }
 
+/** The body moves a little, without its picture. @return pixels whose mean has begun anew */
+static uint32_t creep(ao_room *r)
+{
+    ao_view_param(r->view, "volume.rays", "256"); /* so that noise is no change */
+    set_accumulate(r, 4);
+    r->view->occluders[0].world_from_mesh[12] = 0.0;
+    record(r, 4);
+    r->view->occluders[0].world_from_mesh[12] = 0.01;
+    ao_view_record(r->view, "volume");
+    ao_view_record(r->view, "volume"); /* the others are whole, and nothing moves */
+    return traced(r);
+}
+
+static void test_what_moves_by_less_than_was_said_stays_in_the_mean(void **state)
+{
+    static const double error = 0.3, noise = 0.02;
+    static float truth[PIXELS];
+    ao_room *r = *state;
+    uint32_t all = creep(r);
+    record_truth(r, truth);
+    assert_int_equal(nook_ao_set_param(r->view->ao, "ao.reuse_error", error), NOOK_OK);
+    uint32_t some = creep(r);
+    double off = largest_difference(r->view->visibility, truth);
+    print_message("%u pixels begin anew, %u with an error of %.1f; off by %.4f at the most\n", all, some, error, off);
+    assert_true(some > 0 && some < 3 * all / 4);
+    assert_true(off < error + noise);
+    assert_int_equal(nook_ao_set_param(r->view->ao, "ao.reuse_error", 0.0), NOOK_OK);
+    ao_view_param(r->view, "volume.rays", "2");
+    place(r, 0.0);
+}
+
 static double walk(ao_room *r, int accumulate, float truths[STEPS][PIXELS])
 {
     double sum = 0.0;
@@ -320,6 +351,7 @@ int main(void)
         cmocka_unit_test(test_in_turns_every_value_gets_all_parts_of_the_rays),
         cmocka_unit_test(test_a_surface_that_creeps_is_traced_on),
         cmocka_unit_test(test_what_a_body_that_moves_darkens_has_no_lag),
+        cmocka_unit_test(test_what_moves_by_less_than_was_said_stays_in_the_mean),
         cmocka_unit_test(test_only_what_is_near_a_body_that_moves_begins_anew),
         cmocka_unit_test(test_walking_the_error_is_two_thirds_at_the_most),
         cmocka_unit_test(test_techniques_that_see_the_screen_accumulate_nothing),
