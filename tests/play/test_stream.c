@@ -32,7 +32,7 @@ typedef struct fixture {
     nook_log_capture log;
 } fixture;
 
-/* The engine house's settings, and a line or more. */
+/* The engine house's settings without means, which would be of the frames, too, in which volumes were still read; and a line or more. */
 static void write_settings(fixture *self, const char *lines)
 {
     char path[PATH_SIZE], text[8192];
@@ -42,6 +42,10 @@ static void write_settings(fixture *self, const char *lines)
     int size = snprintf(text, sizeof text, "%.*s%s", (int)file.size, (const char *)file.bytes, lines);
     assert_true(size > 0 && (size_t)size < sizeof text);
     nook_file_free(&file);
+    static const char means[] = "\nao.accumulate = ";
+    char *number = strstr(text, means);
+    assert_non_null(number);
+    number[sizeof means - 1] = '1';
     assert_int_equal(nook_file_write(self->settings, text, (size_t)size), NOOK_OK);
 }
 
