@@ -139,8 +139,10 @@ typedef struct nook_gamepad {
 
 /** This frame's input; all zero without a window. */
 typedef struct nook_input {
-    bool down[NOOK_KEY_COUNT];            /**< Held now. */
-    bool pressed[NOOK_KEY_COUNT];         /**< Went down since the last poll, also when it was released again. */
+    bool down[NOOK_KEY_COUNT]; /**< Held now. */
+    bool pressed
+        [NOOK_KEY_COUNT]; /**< Went down since the last poll, also when it was released again. Places, but for Control
+                                               with Z and Y, which are where the layout has them. */
     double mouse_x, mouse_y;              /**< Pixels from the top left. */
     double mouse_dx, mouse_dy;            /**< Pixels since the last poll. */
     double scroll;                        /**< Steps since the last poll, + away from the user. */

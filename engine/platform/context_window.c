@@ -2,6 +2,7 @@
    driver with what it still holds. The end of the process does it. */
 #include "engine/platform/context_internal.h"
 #include "engine/platform/gamepad_internal.h"
+#include "engine/platform/key_label_internal.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -91,11 +92,15 @@ static const int glfw_keys[NOOK_KEY_COUNT][2] = {
 
 static void on_key(GLFWwindow *window, int key, int scancode, int action, int modifiers)
 {
-    (void)scancode, (void)modifiers;
     window_context *self = glfwGetWindowUserPointer(window);
-    for (int i = 0; action == GLFW_PRESS && i < NOOK_KEY_COUNT; i++)
-        if (key > 0 && (glfw_keys[i][0] == key || glfw_keys[i][1] == key))
-            self->pressed[i] = true;
+    const char *label = action == GLFW_PRESS ? glfwGetKeyName(key, scancode) : NULL;
+    for (int i = 0; action == GLFW_PRESS && i < NOOK_KEY_COUNT; i++) {
+        if (key <= 0 || (glfw_keys[i][0] != key && glfw_keys[i][1] != key))
+            continue;
+        nook_key meant = nook_key_by_label((nook_key)i, modifiers & GLFW_MOD_CONTROL, label);
+        if (meant < NOOK_KEY_COUNT)
+            self->pressed[meant] = true;
+    }
 }
 
 static void on_character(GLFWwindow *window, unsigned character)

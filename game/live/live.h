@@ -107,6 +107,8 @@ bool nook_live_is_stale(const nook_live *live);
  */
 void nook_live_suspend(nook_live *live);
 
+void nook_live_save_to(nook_live *live, const char *path); /**< Where "save" writes from now on. Copied. */
+
 enum { NOOK_LIVE_MESSAGES_MAX = 6, NOOK_LIVE_MESSAGE_SIZE = 1024 };
 
 /**

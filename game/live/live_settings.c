@@ -174,11 +174,19 @@ nook_settings_file live_settings_of_active(nook_live *live)
     return file;
 }
 
+void nook_live_save_to(nook_live *live, const char *path)
+{
+    snprintf(live->settings_path, sizeof live->settings_path, "%s", path);
+}
+
 nook_result live_save(nook_live *live)
 {
     nook_settings_file file = live_settings_of_active(live);
-    nook_result result = nook_settings_file_write(live->settings_path, &file, NULL);
-    live_note(live, result == NOOK_OK ? "saved to %s" : "%s could not be written; the log says why",
+    nook_result result = nook_settings_file_update(live->settings_path, &file);
+    live_note(live,
+              result == NOOK_OK         ? "saved to %s"
+              : result == NOOK_E_FORMAT ? "%s is not written over: mend it first, the log says where"
+                                        : "%s could not be written; the log says why",
               live->settings_path);
     return result;
 }

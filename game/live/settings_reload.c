@@ -12,6 +12,7 @@ struct nook_settings_reload {
     nook_file_watch *watch;
     char path[PATH_SIZE], error[PATH_SIZE];
     bool changed; /* in this poll */
+    bool asked;   /* for the next */
 };
 
 /* The folder of a path: "." when it has none. */
@@ -57,9 +58,15 @@ static void look_for(void *user, const char *changed)
     reload->changed = reload->changed || strcmp(changed, nook_path_name(reload->path)) == 0;
 }
 
+void nook_settings_reload_ask(nook_settings_reload *reload)
+{
+    reload->asked = true;
+}
+
 bool nook_settings_reload_poll(nook_settings_reload *reload, nook_settings_file *out)
 {
-    reload->changed = false;
+    reload->changed = reload->asked;
+    reload->asked = false;
     nook_file_watch_poll(reload->watch, look_for, reload);
     if (!reload->changed)
         return false;

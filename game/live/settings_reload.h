@@ -14,6 +14,8 @@ typedef struct nook_settings_reload nook_settings_reload;
 nook_result nook_settings_reload_create(const char *path, nook_settings_reload **out_reload);
 void nook_settings_reload_destroy(nook_settings_reload *reload); /**< NULL is allowed. */
 
+/** The next poll reads the file as if it had just been saved. */
+void nook_settings_reload_ask(nook_settings_reload *reload);
 /** Once a frame. @param out  what the file says now; untouched otherwise @return true: it was saved and can be read */
 bool nook_settings_reload_poll(nook_settings_reload *reload, nook_settings_file *out);
 /** For the screen: what is wrong with the file as it was saved last, with its line; "" while it can be read. */

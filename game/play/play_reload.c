@@ -1,7 +1,14 @@
 /* Files that are saved while one plays: shaders, level and models, settings. What is wrong with them stands on the screen; what ran goes on. */
 #include "game/play/play_reload.h"
 #include "engine/core/log.h"
+#include <stdio.h>
 #include <string.h>
+
+static void watch_settings(nook_play_window *w)
+{
+    if (*w->settings_path && nook_settings_reload_create(w->settings_path, &w->settings_watch) != NOOK_OK)
+        nook_log_warning("play: %s is not read again before the next start", w->settings_path);
+}
 
 void nook_play_watch(nook_play_window *w)
 {
@@ -9,8 +16,7 @@ void nook_play_watch(nook_play_window *w)
         nook_log_warning("play: shaders that are saved are not seen before the next start");
     if (nook_scene_reload_create(&w->stage, w->play.level->path, &w->scenes) != NOOK_OK)
         nook_log_warning("play: a level or model that is saved is not seen before the next start");
-    if (*w->settings_path && nook_settings_reload_create(w->settings_path, &w->settings_watch) != NOOK_OK)
-        nook_log_warning("play: %s is not read again before the next start", w->settings_path);
+    watch_settings(w);
 }
 
 void nook_play_unwatch(nook_play_window *w)
@@ -40,6 +46,7 @@ static void use_settings(nook_play_window *w, const nook_settings_file *file)
     double falloff;
     nook_setting_print(&file->setting, text);
     memcpy(views->views[views->active].setting, text, sizeof text);
+    views->views[views->active].open = false;
     if (file->r_max > 0.0)
         views->r_max = file->r_max;
     if (file->falloff[0] && nook_ao_parse_param(w->stage.ao, "ao.falloff", file->falloff) == NOOK_OK &&
@@ -58,6 +65,25 @@ static nook_result go_on(void *game, nook_level *level, const nook_scene *scene,
     return nook_play_go_on(game, level, scene, world);
 }
 
+/* A level that was saved may name other settings. */
+static void follow_settings(nook_play_window *w)
+{
+    const char *named = w->play.level->settings;
+    if (w->settings_given || strcmp(named, w->settings_path) == 0)
+        return;
+    if (!*named) {
+        nook_log_info("play: the level names no settings any more; %s stays until the next start", w->settings_path);
+        return;
+    }
+    nook_settings_reload_destroy(w->settings_watch);
+    w->settings_watch = NULL;
+    snprintf(w->settings_path, sizeof w->settings_path, "%s", named);
+    watch_settings(w);
+    if (w->settings_watch)
+        nook_settings_reload_ask(w->settings_watch);
+    nook_live_save_to(w->live, named);
+}
+
 static void take_scene(nook_play_window *w)
 {
     /* A game that goes on in other volumes is another session: what is recorded or replayed would end there. */
@@ -65,7 +91,8 @@ static void take_scene(nook_play_window *w)
         nook_scene_reload_plan_for(w->scenes, nook_live_multiplies(w->live));
     if (nook_scene_reload_poll(w->scenes)) {
         nook_live_suspend(w->live); /* its truth reads the triangles of the old one */
-        nook_scene_reload_swap(w->scenes, go_on, &w->play);
+        if (nook_scene_reload_swap(w->scenes, go_on, &w->play) == NOOK_OK)
+            follow_settings(w);
     }
     nook_live_message(w->live, "scene", nook_scene_reload_status_of(w->scenes)->error);
 }

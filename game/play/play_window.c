@@ -21,6 +21,7 @@ static const double rest_ms = 8.0;        /* of a frame in which nothing is to b
 /* What draws the light's shadow: the command line's, else the level's, else volume as it comes. */
 static nook_result read_settings(nook_play_window *w, const char *given)
 {
+    w->settings_given = given != NULL;
     snprintf(w->settings_path, sizeof w->settings_path, "%s", given ? given : w->play.level->settings);
     return nook_stage_settings_read(w->settings_path, &w->settings);
 }
@@ -144,13 +145,21 @@ static void tell_volumes(const nook_stream *stream)
     nook_log_info("play: %s", nook_stream_print(stream, line, sizeof line));
 }
 
+/* On disk as soon as they are chosen: not every game ends in order. */
+static void keep_preferences(nook_play_window *w)
+{
+    if (memcmp(&w->preferences, &w->kept, sizeof w->kept) == 0)
+        return;
+    nook_preferences_write(w->preferences_path, &w->preferences);
+    w->kept = w->preferences; /* also when they cannot be written, which is said once */
+}
+
 nook_result nook_play_window_close(nook_play_window *w)
 {
     if (w->stage.stream)
         tell_volumes(w->stage.stream);
     nook_result result = nook_play_close(&w->play); /* before the world that it stands in */
-    if (memcmp(&w->preferences, &w->kept, sizeof w->kept) != 0)
-        nook_preferences_write(w->preferences_path, &w->preferences);
+    keep_preferences(w);
     nook_play_unwatch(w);
     if (w->live) {
         nook_result captured = nook_live_capture_end(w->live);
@@ -273,10 +282,12 @@ static void use_input(nook_play_window *w, const nook_input *input, double secon
     if (!w->captured)
         forget_mouse(&rest);
     w->controls.try_is_over = nook_session_look(w->play.session).status != NOOK_SESSION_PLAYING;
-    if (w->paused)
+    if (w->paused) {
         nook_controls_skip(&w->controls, input);
-    else
+    } else {
+        keep_preferences(w); /* the menu is closed: no slider is on its way */
         nook_controls_add(&w->controls, &rest, &w->preferences, seconds);
+    }
     if (input->width > 0 && input->height > 0) {
         w->width = input->width;
         w->height = input->height;
@@ -290,7 +301,8 @@ static void look_nowhere(nook_play_window *w)
     nook_live_input(w->live, &nothing, false, &rest);
 }
 
-/* The stage's frame_index stays as it is: nothing averages noise over time, so that another one in each frame would boil. */
+/* The stage's frame_index stays as it is: where nothing averages noise over time another one in each frame would boil, and ao.accumulate
+   changes rays by itself. */
 static nook_result draw(nook_play_window *w)
 {
     nook_result result = nook_play_picture_fit(w);

@@ -70,6 +70,7 @@ typedef struct nook_play_window {
     nook_preferences preferences, kept, drawn; /**< Now, as they are on disk, and as the last picture was drawn with. */
     char preferences_path[1024];
     char settings_path[1024]; /**< "": as it comes. */
+    bool settings_given;      /**< By who opened it: the level's own do not count. */
     double frame_seconds, frame_rate;
     double clock_ms, left; /**< At the last frame; seconds that no tick has used yet. */
     nook_picture_fit picture_fit;

@@ -1,7 +1,7 @@
-#include "game/settings/settings_file.h"
 #include "engine/core/file.h"
 #include "engine/core/log.h"
 #include "game/settings/line_reader.h"
+#include "game/settings/settings_internal.h"
 #include "game/techniques.h"
 #include <stdio.h>
 #include <stdlib.h>
@@ -186,7 +186,7 @@ static void write_stream(const nook_stream_params *params, FILE *stream)
         write_rows("volumes", rows, count, params, stream);
 }
 
-static void write_setting(const nook_settings_file *file, FILE *stream)
+void settings_print(const nook_settings_file *file, FILE *stream)
 {
     const nook_setting *setting = &file->setting;
     char value[NOOK_SETTING_VALUE_MAX];
@@ -219,7 +219,7 @@ static nook_result print(const void *user, FILE *stream)
     const commented_file *given = user;
     if (given->comment)
         write_comment(given->comment, stream);
-    write_setting(given->file, stream);
+    settings_print(given->file, stream);
     return NOOK_OK;
 }
 

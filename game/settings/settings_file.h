@@ -35,3 +35,10 @@ nook_result nook_settings_file_read(const char *path, nook_settings_file *out);
  * @param comment  lines for the top of the file, each ended by a newline, without '#'; NULL for none
  */
 nook_result nook_settings_file_write(const char *path, const nook_settings_file *file, const char *comment);
+
+/**
+ * Brings a file up to date: values that have changed are written where they stand, those that are as they come now are taken out, those that are new
+ * are added at the end; all else, comments too, stays byte for byte. Without a file there, as nook_settings_file_write.
+ * @return as that; as nook_settings_file_read where a file is there that cannot be read: it is not written over
+ */
+nook_result nook_settings_file_update(const char *path, const nook_settings_file *file);

@@ -50,9 +50,8 @@ test_escape_pauses_the_menu_takes_the_mouse_and_escape_goes_on() {
 test_preferences_last_from_one_game_to_the_next() {
     rm -f "$tmp/cache/preferences.txt"
     in_game 'press F11; sleep 1; press F11; press Escape; wait_for 30 title_has paused'
-    [ ! -e "$tmp/cache/preferences.txt" ] # as it was
-    in_game 'press F11; sleep 1'
-    grep -q '^full_screen = yes' "$tmp/cache/preferences.txt"
+    grep -q '^full_screen = no' "$tmp/cache/preferences.txt" # as it was
+    in_game 'press F11; wait_for 30 grep -q "^full_screen = yes" "$tmp/cache/preferences.txt"' # however the game ends
     in_game 'wait_for 30 eval "xdotool getwindowgeometry $window | grep -q 800x600"'
     rm "$tmp/cache/preferences.txt"
 }
@@ -220,6 +219,43 @@ test_a_saved_level_is_gone_on_in_a_wrong_one_is_said_and_the_old_one_stays() {
         wait_for 60 has_no_red'
     [ "$(grep -c 'scene: .* reloaded' "$tmp/log")" -eq 2 ]
     grep -q 'ends here' "$tmp/log" # what follows would not play back
+}
+
+test_other_settings_that_a_saved_level_names_are_used() {
+    local level=$tmp/level/settings.level
+    mkdir -p "$tmp/level"
+    sed 's/^scene = .*/scene = crate.gltf/' tests/play/data/crate.level >"$level"
+    cp "$crate" "$tmp/level/crate.gltf"
+    printf 'technique = hbao\ndirections = 3\n' >"$tmp/level/other.settings"
+    export level
+    in_game '
+        sed "s/^scene = .*/&\nsettings = other.settings/" "$level" >"$tmp/new"
+        mv "$tmp/new" "$level" # as editors save
+        wait_for 60 log_has "settings taken over: hbao directions=3"
+        printf "technique = ssao\n" >"$tmp/level/other.settings"
+        wait_for 30 log_has "settings taken over: ssao"
+        sed -i "s/^settings = .*/settings = nothing.settings/" "$level"
+        wait_for 60 log_has "nothing.settings: "
+        wait_for 30 has_red
+        sed -i "/^settings = /d" "$level"
+        wait_for 60 log_has "names no settings any more"'
+}
+
+test_undo_is_where_the_layout_has_its_letter() {
+    command -v setxkbmap >/dev/null || skip_test "setxkbmap is not installed"
+    rm -rf "$tmp/layout"
+    mkdir "$tmp/layout"
+    in_game '
+        setxkbmap de
+        shown() { wait_for 30 [ -s "$tmp/layout/nook_000$1.settings" ]; grep -o "view 1.*shows [a-z]*" "$tmp/layout/nook_000$1.settings"; }
+        press F12; first=$(shown 1)
+        press m; sleep 0.5; press F12; second=$(shown 2)
+        press ctrl+z; sleep 0.5; press F12; third=$(shown 3)
+        press ctrl+y; sleep 0.5; press F12; fourth=$(shown 4)
+        echo "$first, $second, $third, $fourth"
+        [ "$first" != "$second" ]
+        [ "$first" = "$third" ]
+        [ "$second" = "$fourth" ]' --out "$tmp/layout"
 }
 
 test_without_a_display_one_line_says_what_to_give() {
