@@ -83,27 +83,12 @@ static nook_result spawn_encoder(nook_capture *capture, double rate, int input)
     snprintf(file, sizeof file, "file:%s", capture->path);
     snprintf(size, sizeof size, "%ux%u", capture->width, capture->height);
     snprintf(frames, sizeof frames, "%g", rate);
-    char *const arguments[] = { "ffmpeg",
-                                "-loglevel",
-                                "error",
-                                "-y",
-                                "-f",
-                                "rawvideo",
-                                "-pix_fmt",
-                                "rgb24",
-                                "-s",
-                                size,
-                                "-r",
-                                frames,
-                                "-i",
-                                "-",
-                                "-an",
-                                "-vf",
-                                "pad=ceil(iw/2)*2:ceil(ih/2)*2",
-                                "-pix_fmt",
-                                "yuv420p",
-                                file,
-                                NULL };
+    char *const arguments[] = {
+        "ffmpeg",   "-loglevel", "error",    "-xerror", /* or it ends with 0 on a full disk */
+        "-y",       "-f",        "rawvideo", "-pix_fmt", "rgb24", "-s",  size,
+        "-r",       frames,      "-i",       "-",        "-an",   "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2",
+        "-pix_fmt", "yuv420p",   file,       NULL
+    };
     int error = spawn(capture, arguments, input);
     if (error == 0)
         return NOOK_OK;

@@ -70,6 +70,7 @@ bool nook_settings_reload_poll(nook_settings_reload *reload, nook_settings_file 
     nook_file_watch_poll(reload->watch, look_for, reload);
     if (!reload->changed)
         return false;
+    reload->error[0] = '\0'; /* of the save before */
     nook_log_keep_errors(reload->error, sizeof reload->error);
     nook_result result = nook_settings_file_read(reload->path, out);
     nook_log_keep_errors(NULL, 0);

@@ -169,7 +169,8 @@ static void test_ffmpeg_gets_every_picture_and_how_they_are(void **state)
     assert_non_null(strstr((char *)seen.bytes, "-f rawvideo"));
     assert_non_null(strstr((char *)seen.bytes, "-s 6x4"));
     assert_non_null(strstr((char *)seen.bytes, "-r 25"));
-    strcpy(strrchr(path, '.'), "\n"); /* without ".words": the last word */
+    assert_non_null(strstr((char *)seen.bytes, "-xerror")); /* without, ffmpeg ends with 0 on a full disk */
+    strcpy(strrchr(path, '.'), "\n");                       /* without ".words": the last word */
     snprintf(script, sizeof script, " file:%s", path);
     assert_non_null(strstr((char *)seen.bytes, script));
     nook_file_free(&seen);

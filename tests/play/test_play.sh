@@ -192,6 +192,26 @@ test_films_of_formats_that_are_not_made_are_refused() {
     done
 }
 
+# film NAME SIZE: a few frames of the house's game by the real ffmpeg.
+film() {
+    play --replay $house.replay --from 20 --frames 12 --size "$2" --capture "$tmp/$1" --cache "$tmp/cache"
+}
+
+test_a_film_has_every_picture_and_even_sides() {
+    command -v ffprobe >/dev/null || skip_test "ffmpeg is not installed"
+    film house.mp4 161x91 >/dev/null
+    [ "$(ffprobe -v error -count_frames -show_entries stream=codec_name,width,height,pix_fmt,r_frame_rate,nb_read_frames \
+        -of csv=p=0 "$tmp/house.mp4")" = h264,162,92,yuv420p,30/1,12 ]
+}
+
+test_a_film_that_finds_no_room_is_a_failure() {
+    command -v ffprobe >/dev/null || skip_test "ffmpeg is not installed"
+    film enough.mp4 160x90 >/dev/null # what is baked is in the cache now
+    local said
+    said=$(trap '' XFSZ; ulimit -f 4; assert_fails 1 film short.mp4 160x90)
+    assert_holds "$said" "short.mp4"
+}
+
 test_pictures_of_a_game_that_nobody_plays_are_refused() {
     assert_holds "$(assert_fails 1 play --capture "$tmp/idle" --size 64x36 --cache "$tmp/cache")" \
         "play: nobody plays without a window; give --replay or --pilot"

@@ -175,6 +175,7 @@ test_a_saved_settings_file_is_used_a_wrong_one_is_said_and_the_old_one_stays() {
         wait_for 30 has_red
         printf "technique = ssao\nplan.error = 0.5\n" >"$tmp/live.settings" # of no plan
         wait_for 30 log_has "settings taken over: ssao"
+        wait_for 30 has_no_red
         not log_has "next start"' --settings "$tmp/live.settings"
 }
 
