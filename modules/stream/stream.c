@@ -79,8 +79,10 @@ static nook_result make_item(const char *name, const nook_stream_level *levels, 
                                                : nook_fail(NOOK_E_MEMORY, "%s: no memory to stream it", name);
         }
         memcpy(path, levels[i].path, size);
-        item->levels[i] =
-            (stream_level){ path, levels[i].info, nook_volume_gpu_bytes(&levels[i].info), levels[i].error, false };
+        item->levels[i] = (stream_level){ .path = path,
+                                          .info = levels[i].info,
+                                          .bytes = nook_volume_gpu_bytes(&levels[i].info),
+                                          .error = levels[i].error };
         item->level_count++;
     }
     *out_item = item;

@@ -91,7 +91,7 @@ typedef struct nook_stream_status {
     uint32_t resident;       /**< Of them, there in some level. */
     uint32_t wanted;         /**< Of them, wanted in some level. */
     uint32_t waiting;        /**< Of those, not there yet in the level that is wanted, or a finer one. */
-    uint32_t refused;        /**< Levels whose files cannot be used. */
+    uint32_t refused;        /**< Levels whose files cannot be used, now or at all. */
     uint32_t reading;        /**< Files that are read, decoded, or uploaded now. */
     bool
         failed; /**< The budget does not hold what always stays, or the device refused: nothing comes until it is another. */

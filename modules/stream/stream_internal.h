@@ -11,7 +11,9 @@ typedef struct stream_level {
     nook_volume_info info;
     uint64_t bytes; /**< On the GPU. */
     double error;
-    bool refused; /**< Its file cannot be used: it is not asked for again. */
+    bool refused;    /**< Its file cannot be used: it is not asked for. */
+    uint32_t pause;  /**< Updates until it is asked for again; 0 and refused: never. */
+    uint32_t failed; /**< Times in a row that it was refused for something that may pass. */
 } stream_level;
 
 /** A body in one kind. */
@@ -58,6 +60,7 @@ struct nook_stream {
     stream_item *of_job[LOADER_JOBS]; /**< What a job of the loader is for; NULL: nothing. */
     int writing;                      /**< The job whose contents are written in part; LOADER_NONE: none. */
     bool settled;                     /**< As of the last update. */
+    uint32_t pauses;                  /**< Levels that have one. */
     uint64_t loads, evictions, frame_upload, largest_upload;
 };
 

@@ -3,6 +3,7 @@
 #include "modules/stream/stream_internal.h"
 
 enum { TRIES = 8 /* of a frame, to find places */ };
+enum { PAUSE_FIRST = 60, PAUSE_DOUBLINGS = 8 /* updates: a second or so at first, minutes at last */ };
 
 /* ---- Asking -------------------------------------------------------------------------------------------------------- */
 
@@ -132,10 +133,22 @@ static void ask(nook_stream *stream)
 
 /* ---- Taking -------------------------------------------------------------------------------------------------------- */
 
-/* Its file cannot be used, as the log says: its body does without, or with a coarser one. */
-static void refuse(nook_stream *stream, stream_item *item)
+/* What has no memory or too many files open now may have them later; what is damaged, another volume's or gone stays so. */
+static bool may_pass(nook_result result)
 {
-    item->levels[item->coming].refused = true;
+    return result == NOOK_E_MEMORY || result == NOOK_E_IO;
+}
+
+/* Its file cannot be used, as the log says: its body does without, or with a coarser one. */
+static void refuse(nook_stream *stream, stream_item *item, nook_result why)
+{
+    stream_level *level = &item->levels[item->coming];
+    level->refused = true;
+    if (may_pass(why)) {
+        uint32_t doublings = level->failed < PAUSE_DOUBLINGS ? level->failed++ : PAUSE_DOUBLINGS;
+        level->pause = (uint32_t)PAUSE_FIRST << doublings;
+        stream->pauses++;
+    }
     item->target = item->resident; /* until the next update */
     stream_cancel(stream, item);
     stream->settled = false;
@@ -154,7 +167,7 @@ static int next_to_write(nook_stream *stream, nook_volume **out_contents)
             continue;
         if (result == NOOK_OK)
             return job;
-        refuse(stream, stream->of_job[job]);
+        refuse(stream, stream->of_job[job], result);
     }
     return LOADER_NONE;
 }
@@ -163,6 +176,7 @@ static void arrive(nook_stream *stream, stream_item *item)
 {
     stream->of_job[item->job] = NULL;
     stream_loader_free(stream->loader, item->job);
+    item->levels[item->coming].failed = 0;
     item->resident = item->coming;
     item->coming = LEVEL_NONE;
     item->job = LOADER_NONE;
@@ -209,6 +223,24 @@ static bool anything_comes(const nook_stream *stream)
     return false;
 }
 
+/* Pauses of what was refused go on; what they are over for is asked for again. */
+static void count_pauses(nook_stream *stream)
+{
+    if (stream->pauses == 0)
+        return;
+    stream->pauses = 0;
+    STREAM_EACH(stream, item)
+    {
+        for (int level = 0; level < item->level_count; level++) {
+            stream_level *own = &item->levels[level];
+            if (own->pause == 0)
+                continue;
+            own->refused = --own->pause > 0;
+            stream->pauses += own->refused;
+        }
+    }
+}
+
 /* Others may have added what stays since the last update, and have made a room grow for it. */
 static void look_at_kept(nook_stream *stream)
 {
@@ -225,6 +257,7 @@ nook_result nook_stream_update(nook_stream *stream, const nook_stream_view *view
     if (stream->failed)
         return NOOK_OK;
     stream->settled = true;
+    count_pauses(stream);
     look_at_kept(stream);
     result = stream_loader_wake(stream->loader);
     if (result == NOOK_OK && stream->stale) {

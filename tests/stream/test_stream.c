@@ -343,6 +343,54 @@ static void test_a_body_whose_finest_file_is_broken_shows_a_coarser_one(void **s
     }
 }
 
+/* A folder in the place of a body's file, which is kept beside it; or the file again. */
+static void hide(const stream_hall *hall, uint32_t body, bool hidden)
+{
+    char beside[4096];
+    const char *path = hall->paths[body][0];
+    snprintf(beside, sizeof beside, "%s.beside", path);
+    if (hidden) {
+        assert_int_equal(rename(path, beside), 0);
+        assert_int_equal(nook_directory_make(path), NOOK_OK);
+    } else {
+        assert_int_equal(remove(path), 0);
+        assert_int_equal(rename(beside, path), 0);
+    }
+}
+
+static void test_what_may_pass_is_asked_for_again_after_pauses_that_grow(void **state)
+{
+    enum { FIRST_PAUSE = 60 };
+    (void)state;
+    stream_hall hall;
+    nook_log_capture lines;
+    stream_hall_open(&hall, NOOK_VOLUME_BINARY);
+    stream_hall_start(&hall, 1, 0.0);
+    hide(&hall, 1, true);
+    nook_log_capture_begin(&lines);
+    stream_hall_settle(&hall);
+    for (int i = 0; i < FIRST_PAUSE / 2; i++)
+        stream_hall_update(&hall);
+    assert_int_equal(lines.count, 1);
+    assert_int_equal(stream_hall_status(&hall).refused, 1);
+    for (int i = 0; i < FIRST_PAUSE; i++)
+        stream_hall_update(&hall);
+    stream_hall_settle(&hall);
+    assert_int_equal(lines.count, 2); /* still so */
+    hide(&hall, 1, false);
+    for (int i = 0; i < FIRST_PAUSE; i++)
+        stream_hall_update(&hall);
+    assert_int_equal(stream_hall_status(&hall).refused, 1); /* twice as long */
+    for (int i = 0; i < FIRST_PAUSE; i++)
+        stream_hall_update(&hall);
+    stream_hall_settle(&hall);
+    nook_log_capture_end();
+    assert_int_equal(lines.count, 2);
+    assert_int_equal(stream_hall_status(&hall).refused, 0);
+    assert_int_equal(stream_hall_status(&hall).resident, STREAM_HALL_BODIES);
+    stream_hall_close(&hall);
+}
+
 /* ---- Coming and going of bodies ---------------------------------------------------------------------------------------- */
 
 static void test_bodies_are_removed_while_they_are_read(void **state)
@@ -424,6 +472,7 @@ int main(void)
         cmocka_unit_test(test_frames_in_which_nothing_comes_allocate_nothing),
         cmocka_unit_test(test_a_broken_file_is_one_line_and_its_body_does_without),
         cmocka_unit_test(test_a_body_whose_finest_file_is_broken_shows_a_coarser_one),
+        cmocka_unit_test(test_what_may_pass_is_asked_for_again_after_pauses_that_grow),
         cmocka_unit_test(test_bodies_are_removed_while_they_are_read),
         cmocka_unit_test(test_the_stream_ends_while_files_are_read),
         cmocka_unit_test(test_bodies_of_the_same_files_share_a_volume),
