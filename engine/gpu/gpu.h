@@ -162,6 +162,9 @@ uint32_t nook_program_native(const nook_gpu *gpu, nook_program program);
 /** How often it has been built: what keeps pictures that it made compares that, and makes them anew after a reload. */
 uint32_t nook_program_version(const nook_gpu *gpu, nook_program program);
 
+/** How many programs have taken the place of others, by reloads: for who keeps what programs of others have made. */
+uint32_t nook_gpu_replaced_programs(const nook_gpu *gpu);
+
 /**
  * Sets a uniform of the program in use, `layout(location = ...)` below 32. Set all of them for every use: a reloaded program
  * starts with zeros. Nothing happens when the shader does not need it (any more).

@@ -31,6 +31,7 @@ struct nook_gpu_cache {
     char *source_root;       /**< Owned. */
     program_entry *programs; /**< Owned; a few dozen at most, searched in order. */
     size_t program_count, program_capacity;
+    uint32_t replaced;    /**< Programs that took the place of others. */
     size_t program_used;  /**< Into programs: the one that uniforms are set of. */
     program_rows *rows;   /**< Owned. */
     size_t rows_count;    /**< A handful, searched in order. */

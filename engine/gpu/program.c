@@ -88,6 +88,7 @@ static void take(nook_gpu *gpu, program_entry *entry, program_build *build)
         free(entry->layout);
         entry->layout = layout;
     }
+    gpu->cache->replaced += entry->id != 0;
     if (entry->id != 0)
         gpu->gl->DeleteProgram(entry->id);
     free_files(entry);
@@ -220,6 +221,11 @@ uint32_t nook_program_native(const nook_gpu *gpu, nook_program program)
 uint32_t nook_program_version(const nook_gpu *gpu, nook_program program)
 {
     return entry_of(gpu, program)->version;
+}
+
+uint32_t nook_gpu_replaced_programs(const nook_gpu *gpu)
+{
+    return gpu->cache->replaced;
 }
 
 void nook_program_use(nook_gpu *gpu, nook_program program)

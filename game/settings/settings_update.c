@@ -133,7 +133,7 @@ static void write_line(update *u, const line_span *line, const char *end, FILE *
 
 static nook_result print(const void *user, FILE *stream)
 {
-    update *u = *(update *const *)user;
+    update *u = *(update *const *)user; /* whose entries remember that they were written */
     const char *at = (const char *)u->text.bytes, *end = at + u->text.size;
     const char *missing = ""; /* newline of the last line */
     while (at < end) {

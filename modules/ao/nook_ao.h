@@ -254,7 +254,7 @@ nook_result nook_ao_record(nook_ao *ao, const nook_ao_frame *frame);
 
 /**
  * The next record takes nothing over from those before, whatever ao.reuse and ao.accumulate say: it is the first of others. For what the context cannot
- * know (a shader that was made anew) and for what must not depend on what was drawn before (a measurement).
+ * know (another `index`) and for what must not depend on what was drawn before (a measurement). Other parameters, shaders, code and sizes it knows.
  */
 void nook_ao_forget(nook_ao *ao);
 

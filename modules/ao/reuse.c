@@ -171,7 +171,8 @@ static nook_result take_settings(nook_ao *ao, const ao_slot *slot)
     ao_reuse *reuse = &ao->reuse;
     const nook_ao_technique *technique = slot->technique;
     const uintptr_t which = (uintptr_t)technique; /* which one is all that counts of it */
-    const size_t size = sizeof which + sizeof ao->shared + sizeof ao->scale + technique->params_size;
+    const uint32_t replaced = nook_gpu_replaced_programs(ao->gpu);
+    const size_t size = sizeof which + sizeof replaced + sizeof ao->shared + sizeof ao->scale + technique->params_size;
     size_t at = 0;
     if (reuse->settings_size != size) {
         free(reuse->settings);
@@ -181,6 +182,7 @@ static nook_result take_settings(nook_ao *ao, const ao_slot *slot)
             return nook_fail(NOOK_E_MEMORY, "ao.reuse: no memory for the settings of %s", technique->name);
     }
     bool same = take_bytes(reuse, &at, &which, sizeof which);
+    same = take_bytes(reuse, &at, &replaced, sizeof replaced) && same;
     same = take_bytes(reuse, &at, &ao->shared, sizeof ao->shared) && same;
     same = take_bytes(reuse, &at, &ao->scale, sizeof ao->scale) && same;
     same = take_bytes(reuse, &at, slot->params, technique->params_size) && same;

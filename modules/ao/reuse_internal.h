@@ -48,7 +48,7 @@ typedef struct ao_reuse {
     ao_marched_list marched[AO_REUSE_MOST]; /**< By the last records: record n in n % AO_REUSE_MOST. */
     uint32_t run;                           /**< Records before the last one that took over from each other. */
     uint8_t *still; /**< Of each place in the lists: records since something else stood there. occluder_max. Owned. */
-    void *settings; /**< The technique's descriptor, shared and own parameters, as bytes. Owned. */
+    void *settings; /**< The technique's descriptor, programs replaced, shared and own parameters, as bytes. Owned. */
     size_t settings_size;
     uint32_t number; /**< Of records that reuse. */
     uint32_t traces; /**< Records since nothing was taken over: which part of the rays' sequence is next. */

@@ -226,6 +226,7 @@ nook_result nook_ao_replace_technique(nook_ao *ao, const struct nook_ao_techniqu
     take_values_over(old, &slot);
     release_params(ao, old);
     *old = slot;
+    nook_ao_forget(ao); /* what other code has traced */
     if (!same_rows(before, technique))
         reload_shaders(ao, technique);
     return NOOK_OK;

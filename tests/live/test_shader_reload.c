@@ -136,6 +136,24 @@ static void test_what_is_saved_before_a_picture_is_in_that_picture(void **state)
     assert_false(same(before, after));
 }
 
+static void test_a_picture_that_stands_and_is_traced_no_more_is_traced_by_a_reloaded_shader(void **state)
+{
+    fixture *self = *state;
+    nook_ao_statistics statistics;
+    picture before, after;
+    assert_int_equal(nook_ao_set_param(self->stage.ao, "ao.accumulate", 2.0), NOOK_OK);
+    for (int i = 0; i < 3; i++)
+        draw(self, NOOK_VIEW_LIT, before);
+    nook_ao_get_statistics(self->stage.ao, &statistics);
+    assert_int_equal(statistics.traced, 0);
+    file_tree_edit(&self->tree, "shaders/ao/volume_main.glsl", "bounded(result)", "bounded(0.25 * result)");
+    wait_for_news(self);
+    draw(self, NOOK_VIEW_LIT, after);
+    assert_false(same(before, after));
+    nook_ao_get_statistics(self->stage.ao, &statistics);
+    assert_true(statistics.traced > 0);
+}
+
 static void test_broken_include_keeps_the_picture_and_says_where_until_it_is_mended(void **state)
 {
     fixture *self = *state;
@@ -275,6 +293,7 @@ int main(void)
         TEST(test_every_shader_of_ours_can_be_reloaded_and_pictures_stay),
         TEST(test_saved_shader_is_seen),
         TEST(test_what_is_saved_before_a_picture_is_in_that_picture),
+        TEST(test_a_picture_that_stands_and_is_traced_no_more_is_traced_by_a_reloaded_shader),
         TEST(test_broken_include_keeps_the_picture_and_says_where_until_it_is_mended),
         TEST(test_shadow_map_that_was_kept_is_drawn_anew_by_a_reloaded_shader),
         TEST(test_technique_whose_shader_never_was_good_works_once_it_is_mended),
