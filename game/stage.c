@@ -349,8 +349,13 @@ nook_result nook_stage_settle(nook_stage *stage)
 {
     const int records = records_of_means(stage);
     nook_result result = NOOK_OK;
+    nook_ao_statistics last = { .traced = UINT32_MAX };
+    if (records > 1)
+        nook_ao_get_statistics(stage->ao, &last);
+    if (last.traced == UINT32_MAX)
+        return NOOK_OK; /* a technique that makes none: the truth would be traced again and again */
     nook_stage_begin_means(stage);
-    for (int i = 0; i < records && records > 1 && result == NOOK_OK; i++)
+    for (int i = 0; i < records && result == NOOK_OK; i++)
         result = nook_stage_occlude(stage);
     return result;
 }

@@ -149,6 +149,38 @@ static void test_filling_again_keeps_the_exposure(void **state)
     assert_true(f->stage.lights.exposure == 3.0f);
 }
 
+static uint32_t traced(const fixture *f)
+{
+    nook_ao_statistics statistics;
+    nook_ao_get_statistics(f->stage.ao, &statistics);
+    return statistics.traced;
+}
+
+static void test_settling_makes_all_means_whole_whatever_was_drawn_before(void **state)
+{
+    enum { PIXELS = 16 * 16 };
+    static float first[PIXELS], again[PIXELS];
+    fixture *f = *state;
+    nook_stage *stage = &f->stage;
+    assert_int_equal(nook_ao_set_technique(stage->ao, "volume"), NOOK_OK);
+    assert_int_equal(nook_ao_set_param(stage->ao, "ao.accumulate", 3.0), NOOK_OK);
+    assert_int_equal(nook_ao_set_param(stage->ao, "ao.reuse", 2.0), NOOK_OK);
+    assert_int_equal(nook_stage_begin(stage, &f->camera), NOOK_OK);
+    for (int before = 1; before <= 2; before++) {
+        for (int i = 0; i < before; i++)
+            assert_int_equal(nook_stage_occlude(stage), NOOK_OK);
+        assert_int_equal(nook_stage_settle(stage), NOOK_OK);
+        nook_texture_read(stage->gpu, nook_stage_visibility(stage), GL_RED, GL_FLOAT, before == 1 ? first : again,
+                          sizeof first);
+        assert_int_equal(nook_stage_occlude(stage), NOOK_OK);
+        assert_int_equal(traced(f), 0);
+    }
+    assert_memory_equal(first, again, sizeof first);
+    nook_stage_begin_means(stage);
+    assert_int_equal(nook_stage_occlude(stage), NOOK_OK);
+    assert_true(traced(f) > 0 && traced(f) != UINT32_MAX);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -158,6 +190,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_kinds_of_volumes_are_baked_when_they_are_marched_and_no_others, set_up,
                                         tear_down),
         cmocka_unit_test_setup_teardown(test_a_record_fails_when_volumes_that_it_marches_cannot_be_had, set_up,
+                                        tear_down),
+        cmocka_unit_test_setup_teardown(test_settling_makes_all_means_whole_whatever_was_drawn_before, set_up,
                                         tear_down),
         cmocka_unit_test_setup_teardown(test_filling_again_keeps_the_exposure, set_up, tear_down),
     };
