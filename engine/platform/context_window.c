@@ -101,6 +101,11 @@ static void on_key(GLFWwindow *window, int key, int scancode, int action, int mo
         if (meant < NOOK_KEY_COUNT)
             self->pressed[meant] = true;
     }
+    /* Held as this key went down, whatever they are by the time of the poll: they may have been pressed before the last one, and let go. */
+    if (action == GLFW_PRESS && modifiers & GLFW_MOD_CONTROL)
+        self->pressed[NOOK_KEY_CONTROL] = true;
+    if (action == GLFW_PRESS && modifiers & GLFW_MOD_SHIFT)
+        self->pressed[NOOK_KEY_SHIFT] = true;
 }
 
 static void on_character(GLFWwindow *window, unsigned character)

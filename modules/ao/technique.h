@@ -62,6 +62,9 @@ typedef struct nook_ao_pass {
         trace before it; visibility, width and height are those of the list, a texel for each of them. */
     const nook_buffer *listed;
     int lists; /**< Not 0: both are traced in this frame, the trace and a list. One program may do both: EITHER of shaders/ao/listed.glsl. */
+    /** Which part of a sequence of rays is traced, 0 unless the technique is reusable: nook_fill_directions of modules/ao/sampling.h. All parts
+        together are one sequence of as many times the rays. */
+    uint32_t part;
     /** Only these pixels are wanted, begin[] to end[] - 1: all others must keep what visibility holds. */
     uint32_t begin[2], end[2];
     uint32_t origin[2]; /**< Pixel of invocation (0, 0) of a dispatch, see nook_ao_pass_groups: a multiple of 8. */
@@ -74,9 +77,6 @@ typedef struct nook_ao_pass {
     double r_max;
     int falloff;   /**< Index into the choices of ao.falloff: shaders/ao/falloff.glsl has the formulas. */
     uint32_t seed; /**< From the frame index. */
-    /** Which part of a sequence of rays is traced, 0 unless the technique is reusable: nook_fill_directions of modules/ao/sampling.h. All parts
-        together are one sequence of as many times the rays. */
-    uint32_t part;
     double falloff_tau;
     /** View position of a pixel: (ndc * ray_scale + ray_offset, -1) * depth, with ndc = 2 (pixel + 0.5) / size - 1. */
     double ray_scale[2], ray_offset[2];
