@@ -21,6 +21,7 @@ typedef struct nook_level_file {
     char path[1024]; /**< As it can be opened from the working directory. */
     char name
         [NOOK_LEVEL_NAME_SIZE]; /**< "": all of its nodes stand in the level. Else a library: they come by "name:node". */
+    unsigned line;              /**< Where in the level's file it is named, for messages; 0: it is the level itself. */
 } nook_level_file;
 
 typedef enum nook_level_kind {

@@ -1,6 +1,7 @@
 #include "game/level/level_scene.h"
 #include "engine/animation/scene_stand.h"
 #include "engine/asset/scene_join.h"
+#include "engine/core/file.h"
 #include "engine/core/log.h"
 #include "engine/core/rotation.h"
 #include "engine/core/suggestion.h"
@@ -25,6 +26,9 @@ static nook_result load_files(loading *l, const nook_scene_options *options)
     for (uint32_t i = 0; i < l->level->file_count; i++) {
         const nook_level_file *file = &l->level->files[i];
         nook_scene *scene;
+        if (file->line > 0 && !nook_file_exists(file->path))
+            return nook_fail(NOOK_E_NOT_FOUND, "%s:%u: there is no file %s; paths are relative to the level's own",
+                             l->level->path, file->line, file->path);
         nook_result result = nook_scene_load(file->path, options, &scene);
         if (result != NOOK_OK)
             return result;

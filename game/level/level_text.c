@@ -66,6 +66,7 @@ static nook_result read_file(nook_level_reading *r, const char *name, const char
             return nook_fail(NOOK_E_FORMAT, "%s: there are two libraries of the name %s", r->lines.where, library);
     }
     nook_level_file *file = &level->files[level->file_count];
+    file->line = r->lines.line;
     nook_result result = read_path(r, name, path, file->path, sizeof file->path);
     if (result == NOOK_OK)
         result = nook_level_read_text(r, name, library, file->name, sizeof file->name);

@@ -152,6 +152,8 @@ static void test_a_file_that_is_missing_fails_the_level(void **state)
     nook_log_capture_end();
     assert_null(scene);
     assert_int_equal(log.errors, 1);
+    assert_non_null(strstr(log.text, ".level:"));
+    assert_non_null(strstr(log.text, "there is no file nowhere.glb"));
     nook_level_free(level);
 }
 
